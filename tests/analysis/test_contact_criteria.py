@@ -6,22 +6,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contactsim.analysis.contact_criteria import CRITERIA, compare_criteria, criterion_numbers, rise_distance
+from contactsim.analysis.contact_criteria import CRITERIA, compare_criteria, criterion_numbers
 from contactsim.observables.adhesion import INTERACTING
 
 APPROACH = np.arange(0.0, 21.0)
-
-
-def test_the_rise_is_measured_between_half_way_and_nearly_all_of_it():
-    ratio = np.minimum(0.6 + 0.04 * APPROACH, 1.0)  # half way at 5 nm, 95 % at 9.5 nm
-    assert rise_distance(APPROACH, ratio) == pytest.approx(4.5)
-    late = np.concatenate(([np.nan, np.nan], ratio[:-2]))
-    assert rise_distance(APPROACH, late) == pytest.approx(4.5)  # a state without contact has no gradient
-
-
-@pytest.mark.parametrize("ratio", [1.02 + 0 * APPROACH, 0.5 + 0.01 * APPROACH, np.nan * APPROACH])
-def test_what_begins_above_the_whole_or_never_comes_near_it_has_no_rise(ratio):
-    assert np.isnan(rise_distance(APPROACH, ratio))
 
 
 def test_numbers_are_read_at_12_nm_and_at_an_area_of_0_02():
@@ -45,4 +33,5 @@ def test_a_table_has_every_criterion_and_a_mean_needs_all_members():
     assert table.area_at_12nm["contact_length"] == pytest.approx(0.06)
     assert table.area_at_12nm["interacting_length_0_1"] == pytest.approx(0.12)
     assert np.isnan(table.pressure_at_area_0_02["contact_length"])  # one member never touches
-    assert table.gradient_rise_distance.to_numpy() == pytest.approx(4.5)
+    rises = table.gradient_rise_approach.drop("contact_length")
+    assert rises.to_numpy() == pytest.approx(8.75 - 0.1)  # 0.95 at 8.75 nm, an area of 0.001 at 0.1 nm

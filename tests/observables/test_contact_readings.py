@@ -14,8 +14,6 @@ from contactsim.observables.contact_readings import (
     CRITERION_NUMBERS,
     RoughPath,
     numbers_by_criterion,
-    numbers_by_height,
-    solved_loading,
     summarise_readings,
 )
 from contactsim.reference.hard_wall import uniaxial_modulus
@@ -50,23 +48,6 @@ def test_at_a_hard_wall_all_criteria_are_the_same():
     numbers = {f"{name}{end}": float(len(name)) for name in CRITERION_NUMBERS for end in ("", "_increment_error")}
     found = numbers_by_criterion(xr.Dataset(numbers))
     assert {float(found[f"area_at_12nm_{criterion}"]) for criterion in CRITERIA} == {float(len("area_at_12nm"))}
-
-
-def test_a_body_of_finite_height_reaches_an_approach_under_a_smaller_pressure():
-    found = numbers_by_height(rough_path(), uniaxial_modulus(1.5, 0.3))
-    strain = 1e-4 * MODULUS / uniaxial_modulus(1.5, 0.3)  # for each nm of approach
-    for height, name in ((LENGTH, "on_one_period"), (2 * LENGTH, "on_two_periods"), (5000.0, "on_5um")):
-        share = 1 / (1 + strain * height)
-        assert float(found[f"pressure_at_20nm_{name}"]) == pytest.approx(1e-4 * 20 * share)
-        assert float(found[f"area_at_12nm_{name}"]) == pytest.approx(12 / 60 * share)
-        assert float(found[f"area_at_12nm_{name}_increment_error"]) == pytest.approx(0.0, abs=1e-12)
-
-
-def test_a_body_that_falls_back_passes_the_states_in_a_jump():
-    pulled = np.where((STEPS > 5) & (STEPS < 10), -0.01, 1e-4 * STEPS)
-    found = numbers_by_height(rough_path(pulled), uniaxial_modulus(1.5, 0.3))
-    after = 1e-4 * 20 / (1 + 1e-4 * MODULUS * LENGTH / uniaxial_modulus(1.5, 0.3))
-    assert float(found["pressure_at_20nm_on_one_period"]) == pytest.approx(after)
 
 
 def test_gap_and_peaks_are_read_where_the_load_and_the_approach_are_reached():
@@ -119,8 +100,3 @@ def test_only_what_a_path_has_is_read():
     for path in (wall, anywhere):
         data = summarise_readings(rough_path(), path)
         assert path.reading_names <= set(data) and not (PATH.reading_names - path.reading_names) & set(data)
-
-
-def test_a_single_unknown_state_is_bridged_and_two_end_the_loading():
-    pressure = np.array([0.0, np.nan, 2.0, np.nan, np.nan, 5.0])
-    assert solved_loading(np.arange(6.0), pressure, 10 * np.arange(6.0))[0].tolist() == [0.0, 1.0, 2.0]

@@ -14,6 +14,8 @@ from contactsim.observables.linearity import (
     area_load_numbers,
     curvature,
     nonlinearity,
+    rise_approach,
+    solved_loading,
     summarise_area_load,
     value_at_level,
     values_at_loads,
@@ -69,6 +71,31 @@ def test_a_level_is_interpolated_where_a_curve_reaches_it_and_missing_elsewhere(
     assert value_at_level(area, 0.2, load) == pytest.approx(1.5)
     assert np.isnan(value_at_level(area, 0.5, load))
     assert np.isnan(value_at_level(area[1:], 0.05, load[1:]))
+
+
+APPROACH = np.arange(0.0, 11.0)
+
+
+def test_the_rise_of_a_gradient_begins_at_an_area_of_a_thousandth_and_ends_near_that_of_all():
+    ratio = np.minimum(0.5 + 0.1 * APPROACH, 1.0)
+    assert rise_approach(APPROACH, 4e-4 * APPROACH, ratio) == pytest.approx(4.5 - 2.5)
+    no_contact = np.where(APPROACH < 2, np.nan, ratio)  # a state without contact has no gradient
+    assert rise_approach(APPROACH, 4e-4 * APPROACH, no_contact) == pytest.approx(4.5 - 2.5)
+
+
+def test_a_gradient_that_is_that_of_all_at_once_rises_within_one_step():
+    area = np.where(APPROACH < 3, 0.0, 0.01)
+    assert rise_approach(APPROACH, area, np.where(APPROACH < 3, np.nan, 1.1)) == pytest.approx(1 - 0.1)
+
+
+@pytest.mark.parametrize(("first_area", "ratio"), [(0.01, 1.0), (0.0, 0.9), (0.0, np.nan)])
+def test_a_path_that_begins_late_or_a_gradient_that_stays_small_has_no_rise(first_area, ratio):
+    assert np.isnan(rise_approach(APPROACH, first_area + 4e-4 * APPROACH, ratio + 0 * APPROACH))
+
+
+def test_a_single_unknown_state_is_bridged_and_two_end_the_loading():
+    pressure = np.array([0.0, np.nan, 2.0, np.nan, np.nan, 5.0])
+    assert solved_loading(np.arange(6.0), pressure, 10 * np.arange(6.0))[0].tolist() == [0.0, 1.0, 2.0]
 
 
 def numbers_of(deep, area, pressure):

@@ -18,7 +18,7 @@ from contactsim.analysis.ensemble import converged
 from contactsim.analysis.rough_paths import with_indentation
 from contactsim.analysis.scales import body_settings
 from contactsim.grid import Array
-from contactsim.observables.contact_readings import CHAPTER_4_HEIGHT
+from contactsim.observables.body_readings import CHAPTER_4_HEIGHT
 from contactsim.reference import hard_wall
 
 SAMPLES = 241

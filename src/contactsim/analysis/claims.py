@@ -20,6 +20,7 @@ from contactsim.analysis.cell_rules import cell_texts
 from contactsim.analysis.claim_data import data_text
 from contactsim.analysis.comparison import SECOND_STUDY, Comparison, studies_of
 from contactsim.analysis.conditions import ConditionSearch
+from contactsim.analysis.extremes import NO_EXTREME, describe_extreme
 from contactsim.analysis.formulas import FORMULAS
 from contactsim.analysis.more_members import TRANSFERRED_FROM, with_more_members
 from contactsim.analysis.quantities import SECOND_ESTIMATORS
@@ -73,14 +74,14 @@ def judge(claim: Mapping, data: Sequence[xr.Dataset]) -> dict[str, object]:
     data
         Datasets of its studies: none, one, or two for a comparison.
     """
-    row: dict[str, object] = {"condition": "", "unknown": ""} | dict.fromkeys(CONDITION_NUMBERS, NAN)
+    row: dict[str, object] = {"condition": "", "unknown": ""} | dict.fromkeys(CONDITION_NUMBERS, NAN) | dict(NO_EXTREME)
     row |= dict(NO_ROW_BESIDE) if claim["beside"] is None else judge_beside(claim, data)
     if claim["formula"] is not None:
         return row | _judge_formula(claim)
     if not data:
         return row | _entries([Verdict()] * 3, Estimate())
     comparison = Comparison(claim, data).select(claim["select"])
-    row["unknown"] = unknown_places(comparison)
+    row |= {"unknown": unknown_places(comparison)} | describe_extreme(claim, comparison)
     if claim["reduce"] in ORDERS:
         result, number = _judge_order(comparison)
         return row | _entries([result] * 3, number)

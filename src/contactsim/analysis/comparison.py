@@ -17,7 +17,7 @@ import xarray as xr
 
 from contactsim.analysis.cross_validation import FEW_SPLITS, MAX_SPLITS, joint_splits
 from contactsim.analysis.ensemble import waves_name, widen_interval
-from contactsim.analysis.measures import SPLIT
+from contactsim.analysis.measures import SPLIT, Places, departure_of_curves
 from contactsim.analysis.quantities import is_function_of_means, mean_quantity, number_exists, with_quantities
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS
 from contactsim.grid import Array
@@ -30,6 +30,7 @@ Arguments = tuple[xr.DataArray, dict[str, Any]]
 SECOND_STUDY: dict[str, tuple[str, Callable[[Any, Any], Any]]] = {
     "relative_to": ("over", operator.truediv),
     "minus": ("minus", operator.sub),
+    "departs_from": ("against", departure_of_curves),
 }
 """Keys of a claim that name a second study: the word for what is done with it, and the operation."""
 MAX_BLOCKS = 20
@@ -105,6 +106,14 @@ class Comparison:
         splits = joint_splits(ensembles, MAX_SPLITS if is_fast else FEW_SPLITS)
         first, second = (self._arguments(data, halves) for halves in zip(*splits, strict=True))
         return float(np.mean([self._reduce(second, first), self._reduce(first, second)]))
+
+    def extreme(self) -> tuple[xr.DataArray, Places] | None:
+        """Return the values of which the number is an extreme, and its place; None for a number of another kind."""
+        reduction = REDUCTIONS.get(self.claim["reduce"])
+        if reduction is None or reduction.values_of is None:
+            return None
+        values, inputs = self._arguments(self.data)
+        return reduction.values_of(values, **inputs), reduction.places(values, **inputs)
 
     def steps(self, data: Datasets) -> Array:
         """Return the steps of an ordered quantity, positive in the claimed sense, flat."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from contactsim.analysis.comparison import Comparison
+from contactsim.analysis.comparison import SECOND_STUDY, Comparison
 from contactsim.analysis.quantities import SECOND_ESTIMATORS, resolves_edges, second_estimate
 from contactsim.analysis.uncertainty import Estimate, estimate, is_on_thesis_grid
 
@@ -36,5 +36,5 @@ def mean_error(data: xr.Dataset, name: str) -> xr.DataArray:
 
 def estimate_trend(data: xr.Dataset, name: str, along: str) -> Estimate:
     """Return the change of a quantity's straight trend along a dimension over its mean, with its errors."""
-    others = dict.fromkeys(("against", "across", "absent", "relative_to", "minus", "grid"))
+    others = dict.fromkeys(("against", "across", "absent", *SECOND_STUDY, "grid"))
     return estimate(Comparison(others | {"quantity": name, "reduce": "trend", "along": along}, [data]))

@@ -107,6 +107,15 @@ def largest_spread(values: xr.DataArray, places: Places, along: str) -> float:
     return number_of(ranges(values, ends, along).isel(place))
 
 
+def largest_difference(values: xr.DataArray, places: Places, along: str) -> float:
+    """Return the largest difference between any two values along a dimension, or one and zero, over the others.
+
+    Of departures from a curve, zero is that curve.
+    """
+    ends, place = places
+    return number_of(differences(_with_zero(values, along), ends, along).isel(place))
+
+
 def spread_ratio(values: xr.DataArray, places: Places, against: xr.DataArray, along: str) -> float:
     """Return the spread of a quantity over the spread of another."""
     return spread(values, places[0], along) / spread(against, places[1], along)
@@ -191,8 +200,24 @@ def slopes(values: xr.DataArray, against: xr.DataArray, along: str) -> xr.DataAr
     return (x * _logarithm(values)).sum(along, skipna=False) / (x**2).sum(along, skipna=False)
 
 
+def departure_of_curves(values: xr.DataArray, reference: xr.DataArray) -> xr.DataArray:
+    """Return the difference of two curves over the largest value of the second, at any load and variant."""
+    return (values - reference) / reference.max(_all_but_splits(reference), skipna=False)
+
+
+def _with_zero(values: xr.DataArray, along: str) -> xr.DataArray:
+    """Return the values, and zeros as one more along a dimension, which loses its coordinates."""
+    zeros = xr.zeros_like(values.isel({along: [0]})).where(values.isel({along: [0]}).notnull())
+    return xr.concat([values.drop_vars(along, errors="ignore"), zeros.drop_vars(along, errors="ignore")], along)
+
+
 def ranges(values: xr.DataArray, ends: Places, along: str) -> xr.DataArray:
-    """Return the difference between two places along a dimension over |mean|.
+    """Return the difference between two places along a dimension over |mean|; ends: as `ends_of_range` gives them."""
+    return differences(values, ends, along) / abs(values.mean(along, skipna=False))
+
+
+def differences(values: xr.DataArray, ends: Places, along: str) -> xr.DataArray:
+    """Return the difference between two places along a dimension.
 
     ends: as `ends_of_range` gives them, with all other dimensions of the values
     """
@@ -202,7 +227,7 @@ def ranges(values: xr.DataArray, ends: Places, along: str) -> xr.DataArray:
         for end in ends
     )
     places = {dim: values[dim] for dim in others if dim in values.coords}
-    return xr.DataArray((high - low) / abs(values.values.mean(axis)), places, dims=others)
+    return xr.DataArray(high - low, places, dims=others)
 
 
 def ends_of_range(values: xr.DataArray, along: str) -> Places:
@@ -219,6 +244,13 @@ def place_of_largest_spread(values: xr.DataArray, along: str) -> Places:
     """Return the ends of all ranges along a dimension, and the place of the largest range."""
     ends = ends_of_range(values, along)
     return ends, place_of_largest(ranges(values, ends, along))
+
+
+def place_of_largest_difference(values: xr.DataArray, along: str) -> Places:
+    """Return the ends of all ranges along a dimension, zero counted, and the place of the largest range."""
+    values = _with_zero(values, along)
+    ends = ends_of_range(values, along)
+    return ends, place_of_largest(differences(values, ends, along))
 
 
 def place_of_departure(values: xr.DataArray, against: xr.DataArray) -> Places:

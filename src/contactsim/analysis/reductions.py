@@ -36,6 +36,9 @@ class Reduction:
         True if `against` is that of the first of two studies, not their ratio or difference.
     compares_ends
         True if it compares the two ends of a dimension, so that a part of the dimension says something else.
+    values_of
+        Function of the quantity and its inputs that gives the values at all places, of which the number is an extreme;
+        None where there is no extreme.
     """
 
     measure: Callable[..., float]
@@ -43,6 +46,7 @@ class Reduction:
     neutral: float | None = None
     against_first: bool = False
     compares_ends: bool = False
+    values_of: Callable[..., xr.DataArray] | None = None
 
     @property
     def inputs(self) -> list[str]:
@@ -84,7 +88,7 @@ def largest_of(values_of: Callable[..., xr.DataArray], sign: float = 1.0, **attr
         """Return the place of the extreme."""
         return measures.place_of_largest(sign * values_of(values, **inputs))
 
-    return Reduction(measure, locate, **attributes)
+    return Reduction(measure, locate, values_of=values_of, **attributes)
 
 
 REDUCTIONS: dict[str, Reduction] = {
@@ -92,6 +96,7 @@ REDUCTIONS: dict[str, Reduction] = {
     "trend": Reduction(measures.trend, neutral=0.0),
     "spread": Reduction(measures.spread, measures.ends_of_range, neutral=0.0),
     "largest_spread": Reduction(measures.largest_spread, measures.place_of_largest_spread, neutral=0.0),
+    "largest_difference": Reduction(measures.largest_difference, measures.place_of_largest_difference, neutral=0.0),
     "spread_ratio": Reduction(
         measures.spread_ratio,
         lambda values, against, along: (measures.ends_of_range(values, along), measures.ends_of_range(against, along)),

@@ -24,6 +24,7 @@ REDUCTION_PHRASES = {
 """Quantities and reductions of claims that no dataset holds."""
 MEASURE_PHRASES = {
     "furthest_from_one": "value furthest from one",
+    "largest_difference": "largest difference between any two",
     "largest_size": "largest size",
     "origin_slope": "slope through the origin",
     "ratio_size": "size of the ratio",
@@ -58,6 +59,7 @@ STUDY_PHRASES = {
     "rough_adhesive_long_many": "a hundred lines without short waves",
     "rough_adhesive_coupled": "the coupled law",
     "rough_repulsive": "repulsion alone",
+    "rough_onset": "first contact of adhesive rough lines",
     "rough_stiff": "weak adhesion on stiff repulsion",
     "rough_wall": "hard wall",
     "rough_attraction": "hard wall that attracts",
@@ -69,7 +71,7 @@ STUDY_PHRASES = {
     "probe_low_friction": "low friction",
 }
 """Studies that statements compare, in words."""
-STUDIES = re.compile(r" in (\w+) (over|minus) (\w+)")
+STUDIES = re.compile(r" in (\w+) (over|minus|against) (\w+)")
 """Both studies in the measure of a claim."""
 NAME = re.compile(r"[a-z]\w*")
 """A name of a quantity or a dimension, or a word, in the measure of a claim."""

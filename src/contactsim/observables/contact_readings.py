@@ -1,7 +1,8 @@
-"""Numbers of paths through rough contacts by other readings of the text: of what is contact, and of the body's height.
+"""Numbers of paths through rough contacts by other readings of the text, above all of what is contact.
 
-The text counts as contact what exceeds "a threshold approaching zero", and gives no height of the body. Names of these
-numbers are those of `contactsim.observables.linearity` with the criterion or the height behind.
+The text counts as contact what exceeds "a threshold approaching zero". Names of these numbers are those of
+`contactsim.observables.linearity` with the criterion behind. On the body's height see
+`contactsim.observables.body_readings`.
 """
 
 from __future__ import annotations
@@ -13,15 +14,16 @@ import numpy as np
 import xarray as xr
 
 from contactsim.grid import Array
+from contactsim.observables.body_readings import BY_HEIGHT, CURVES, readings_on_bodies
 from contactsim.observables.linearity import (
     APPROACH_LEVELS,
     LOAD_LEVELS,
-    bridge_gaps,
+    solved_loading,
     summarise_area_load,
     value_at_level,
     values_at_loads,
 )
-from contactsim.observables.path_summary import TURN_TOLERANCE, legs
+from contactsim.observables.path_summary import TURN_TOLERANCE
 from contactsim.status import is_solved
 
 CRITERIA = {
@@ -33,18 +35,11 @@ CRITERIA = {
 """Length of contact and gradient over it by each criterion beside that of a hundredth of the strength."""
 CRITERION_NUMBERS = (
     *("nonlinearity", "nonlinearity_reduced", "area_at_zero_load", "area_at_load_0_001"),
-    *("area_at_12nm", "area_at_20nm", "gradient_ratio_at_area_0_02"),
+    *("area_at_12nm", "area_at_20nm", "gradient_ratio_at_area_0_02", "gradient_rise_approach"),
 )
 """Numbers that depend on the criterion."""
-CHAPTER_4_HEIGHT = 5000.0
-"""Height of the bodies of Chapter 4, nm."""
-HEIGHTS = ("on_5um", "on_one_period", "on_two_periods")
-"""Bodies: of Chapter 4's height, as high as the period, and twice as high."""
-HEIGHT_NUMBERS = ("area_at_12nm", "pressure_at_20nm")
-"""Numbers at an approach, which depends on the height of the body."""
 BY_CRITERION = tuple(f"{number}_{criterion}" for criterion in CRITERIA for number in CRITERION_NUMBERS)
-BY_HEIGHT = tuple(f"{number}_{height}" for height in HEIGHTS for number in HEIGHT_NUMBERS)
-"""Names of the numbers by each reading."""
+"""Names of the numbers by each criterion."""
 AT_LOAD = ("mean_gap_at_load_0_001",)
 AT_APPROACH = {
     "touching_peaks": "touching_peaks_at_20nm",
@@ -56,7 +51,7 @@ BY_WAVES = ("conformity_at_20nm_contrast", "gap_at_20nm_long_over_short")
 """Short waves against long ones: the difference of what is followed, and the ratio of what is not."""
 UP_TO_APPROACH = {"rms_slip": "rms_slip_to_20nm", "slipped_share": "slipped_share_to_20nm"}
 """Largest numbers of a state on loading up to 20 nm, where a law reads the tangential gap."""
-READINGS = (*BY_CRITERION, *BY_HEIGHT, *AT_LOAD, *AT_APPROACH.values(), *BY_WAVES, *UP_TO_APPROACH.values())
+READINGS = (*BY_CRITERION, *CURVES, *BY_HEIGHT, *AT_LOAD, *AT_APPROACH.values(), *BY_WAVES, *UP_TO_APPROACH.values())
 """Names of all these numbers."""
 ERROR = "_increment_error"
 
@@ -83,10 +78,10 @@ class RoughPath:
     @property
     def reading_names(self) -> set[str]:
         """Names of the numbers that such a path has."""
-        names = {*BY_CRITERION, *AT_LOAD}
+        names = {*BY_CRITERION, *AT_LOAD, CURVES[0]}
         names |= {*AT_APPROACH.values(), *BY_WAVES} if self.adheres else set()
         names |= {*UP_TO_APPROACH.values()} if self.slips else set()
-        return names | ({*BY_HEIGHT} if self.uniaxial_modulus is not None else set())
+        return names | ({*CURVES, *BY_HEIGHT} if self.uniaxial_modulus is not None else set())
 
 
 def summarise_readings(data: xr.Dataset, path: RoughPath) -> xr.Dataset:
@@ -100,9 +95,7 @@ def summarise_readings(data: xr.Dataset, path: RoughPath) -> xr.Dataset:
     if path.slips:
         for name, number in UP_TO_APPROACH.items():
             data = data.assign(_read_loading(data, name, number, _largest_up_to_approach))
-    if path.uniaxial_modulus is not None:
-        data = data.assign(numbers_by_height(data, path.uniaxial_modulus))
-    return data
+    return data.assign(readings_on_bodies(data, path.uniaxial_modulus))
 
 
 def numbers_by_criterion(data: xr.Dataset) -> dict[str, xr.DataArray]:
@@ -116,61 +109,6 @@ def numbers_by_criterion(data: xr.Dataset) -> dict[str, xr.DataArray]:
         for name in CRITERION_NUMBERS:
             numbers |= {f"{name}_{criterion}{end}": curves[f"{name}{end}"] for end in ("", ERROR)}
     return numbers
-
-
-def numbers_by_height(data: xr.Dataset, uniaxial_modulus: float) -> dict[str, xr.DataArray]:
-    """Return `BY_HEIGHT` and their errors; uniaxial_modulus: C11, GPa.
-
-    A body of height h adds p h/C11 to the approach. If it is half as high as the period, the longest wave is stiffer
-    by 8 %, which is left out.
-    """
-    area = data["relative_interacting_area" if "relative_interacting_area" in data else "relative_contact_area"]
-    pressure = data.normalised_pressure.where(is_solved(data.status))
-    strain = pressure * data.contact_modulus / uniaxial_modulus
-    heights = (CHAPTER_4_HEIGHT, data.length, 2 * data.length)
-    numbers: dict[str, xr.DataArray] = {}
-    for name, height in zip(HEIGHTS, heights, strict=True):
-        columns = xr.apply_ufunc(
-            _numbers_on_body,
-            data.approach - data.approach_first_touch,
-            strain * height,
-            area,
-            pressure,
-            input_core_dims=[["step"]] * 4,
-            output_core_dims=[[]] * 2 * len(HEIGHT_NUMBERS),
-            vectorize=True,
-        )
-        ends = [f"{number}_{name}{end}" for end in ("", ERROR) for number in HEIGHT_NUMBERS]
-        numbers |= dict(zip(ends, columns, strict=True))
-    return numbers
-
-
-def _numbers_on_body(indentation: Array, added: Array, area: Array, pressure: Array) -> tuple[float, ...]:
-    """Return `HEIGHT_NUMBERS` of a path on loading, and their changes without every second state; all (step,).
-
-    States that the body passes in a jump, because it is more compliant than the contact, are left out: the approach
-    never falls back.
-    """
-    pressure, approach, area = solved_loading(indentation, pressure, indentation + added, area)
-    rises = approach > np.concatenate(([-np.inf], np.maximum.accumulate(approach)[:-1]))
-    approach, columns = approach[rises], (area[rises], pressure[rises])
-    numbers, coarse = (
-        [value_at_level(approach[part], x, y[part]) for x, y in zip(APPROACH_LEVELS, columns, strict=True)]
-        for part in (slice(None), slice(approach.size % 2 == 0, None, 2))
-    )
-    return *numbers, *np.abs(np.subtract(coarse, numbers))
-
-
-def solved_loading(indentation: Array, pressure: Array, *others: Array) -> list[Array]:
-    """Return pressure and other columns on loading up to the first unknown state; a single one is bridged.
-
-    All (step,); a state is unknown where the pressure is NaN.
-    """
-    loading = legs(indentation)[0]
-    columns = bridge_gaps([column[loading] for column in (pressure, *others)], 0.5)
-    unknown = np.flatnonzero(np.isnan(columns[0]))
-    end = int(unknown[0]) if unknown.size else columns[0].size
-    return [column[:end] for column in columns]
 
 
 def _read_loading(

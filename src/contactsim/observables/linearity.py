@@ -35,9 +35,11 @@ AREA_LOAD = (
     *AREA_LEVELS,
     *LOAD_LEVELS,
     *("area_at_12nm", "pressure_at_12nm", "area_at_20nm", "pressure_at_20nm"),
-    "gradient_ratio_at_area_0_02",
+    *("gradient_ratio_at_area_0_02", "gradient_rise_approach"),
 )
 """Numbers that summarise a curve of area against load; those with `_reduced` use p_r*, the others p/E*."""
+FIRST_AREA, NEARLY_ALL = 0.001, 0.95
+"""Relative area from which the gradient over the contact is followed, and the part of that of all that it rises to."""
 MIN_STATES = 3
 """Smallest number of states that a parabola is fitted to."""
 
@@ -106,6 +108,31 @@ def value_at_level(quantity: Array, level: float, values: Array) -> float:
     return float(values[after - 1] + share * (values[after] - values[after - 1]))
 
 
+def rise_approach(approach: Array, area: Array, ratio: Array) -> float:
+    """Return the approach from a relative area of 0.001 to where the gradient over the contact is 0.95 of that of all.
+
+    Parameters
+    ----------
+    approach, area
+        Approach, nm, and relative area, (step,).
+    ratio
+        Gradient over the contact, over that of all, (step,).
+
+    Returns
+    -------
+    nm. If the first state beyond that area has such a gradient, all of the approach to it counts. NaN for a path that
+    begins with a larger area, or whose gradient does not rise so far.
+    """
+    start = value_at_level(area, FIRST_AREA, approach)
+    reached = np.flatnonzero((area >= FIRST_AREA) & (ratio >= NEARLY_ALL))
+    if np.isnan(start) or not reached.size:
+        return np.nan
+    end = reached[0]
+    if area[end - 1] < FIRST_AREA:
+        return float(approach[end] - start)
+    return value_at_level(ratio[end - 1 :], NEARLY_ALL, approach[end - 1 :]) - start
+
+
 def bridge_gaps(columns: list[Array], share: float) -> list[Array]:
     """Return columns, (step,), with single unknown states between two known ones filled in.
 
@@ -124,6 +151,18 @@ def bridge_gaps(columns: list[Array], share: float) -> list[Array]:
     for column in filled:
         column[alone] = (1 - share) * column[alone - 1] + share * column[alone + 1]
     return filled
+
+
+def solved_loading(indentation: Array, pressure: Array, *others: Array) -> list[Array]:
+    """Return pressure and other columns on loading up to the first unknown state; a single one is bridged.
+
+    All (step,); a state is unknown where the pressure is NaN.
+    """
+    loading = legs(indentation)[0]
+    columns = bridge_gaps([column[loading] for column in (pressure, *others)], 0.5)
+    unknown = np.flatnonzero(np.isnan(columns[0]))
+    end = int(unknown[0]) if unknown.size else columns[0].size
+    return [column[:end] for column in columns]
 
 
 def area_load_numbers(
@@ -173,7 +212,8 @@ def _read_curve(indentation: Array, columns: list[Array], surface_gradient: floa
     numbers += values_at_loads(pressure, area, np.array(list(LOAD_LEVELS.values()))).tolist()
     numbers += [value_at_level(indentation, x, values) for x in APPROACH_LEVELS for values in (area, pressure)]
     ratio = gradient / surface_gradient if surface_gradient > 0 else np.full_like(gradient, np.nan)
-    return np.array([*numbers, value_at_level(area, AREA_LEVELS["pressure_at_area_0_02"], ratio)])
+    numbers += [value_at_level(area, AREA_LEVELS["pressure_at_area_0_02"], ratio)]
+    return np.array([*numbers, rise_approach(indentation, area, ratio)])
 
 
 def summarise_area_load(data: xr.Dataset, area: str, gradient: str) -> xr.Dataset:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contactsim.analysis.causes import KINDS
 from contactsim.analysis.cell_rules import CELL
+from contactsim.analysis.comparison import SECOND_STUDY
 from contactsim.analysis.formulas import FORMULAS
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS, reduction_inputs
 from contactsim.study.reading import Key, choice, listed, mapping, number, positive, text
@@ -20,6 +21,7 @@ CLAIM_KEYS = {
     "formula": Key(choice(FORMULAS), f"one of {', '.join(FORMULAS)}, or left out", None),
     "relative_to": Key(text, "the name of a second study that divides, or left out", None),
     "minus": Key(text, "the name of a second study that is subtracted, or left out", None),
+    "departs_from": Key(text, "the name of a second study that curves are compared with, or left out", None),
     "more_members": Key(listed(text), "a list of studies with more members of the same surfaces on fewer points", None),
     "quantity": Key(text, "the name of a quantity", None),
     "beside": Key(text, "the name of a quantity that is judged beside it and not counted, or left out", None),
@@ -51,12 +53,12 @@ CELL_KEYS = {name: Key(number, "an exponent", None) for name in CELL}
 EDGES = ("at_least", "at_most")
 """Keys of a band with one edge; a band with two is `expect` with `tolerance`."""
 REPLACED = (
-    *("study", "relative_to", "minus", "more_members", "quantity", "reduce", "along", "against", "select"),
+    *("study", *SECOND_STUDY, "more_members", "quantity", "reduce", "along", "against", "select"),
     *("expect", "tolerance", *EDGES),
 )
 CASE_KEYS = {key: CLAIM_KEYS[key] for key in REPLACED}
 """Keys that a further case of a statement may replace."""
-DATA_KEYS = ("study", "relative_to", "minus", "more_members", "select")
+DATA_KEYS = ("study", *SECOND_STUDY, "more_members", "select")
 MEASURE_KEYS = ("reduce", "along", "across", "against")
 NUMBER_KEYS = {key: CLAIM_KEYS[key] for key in (*DATA_KEYS, "quantity", *MEASURE_KEYS, "absent")}
 """Keys that a number of a cause may replace: where the data come from, and what is done with them."""

@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from contactsim.analysis.comparison import SECOND_STUDY
 from contactsim.errors import InputError
 from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
 from contactsim.evaluation.identification.admission import Limits
@@ -180,7 +181,7 @@ def claims_on(claims: Mapping[str, dict], studies: Sequence[str], left_out: Sequ
     judged = {}
     for name, claim in claims.items():
         cases = [claim, *(claim.get("cases") or {}).values()]
-        read_studies = {case[key] for case in cases for key in ("study", "relative_to", "minus")} - {None}
+        read_studies = {case[key] for case in cases for key in ("study", *SECOND_STUDY)} - {None}
         if read_studies and read_studies <= set(studies) and not claim["is_finding"] and name not in left_out:
             judged[name] = {**claim, "admissible": None}
     return judged

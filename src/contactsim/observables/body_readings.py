@@ -1,0 +1,94 @@
+"""Load curves of rough contacts at even approaches, and what the height of the body does to them.
+
+The text gives no height of the body. On a half-space the mean displacement is zero by convention. A body of height h
+adds p h/C11 to the approach. If it is half as high as the period, the longest wave is stiffer by 8 %. This is left out.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from contactsim.grid import Array
+from contactsim.observables.linearity import APPROACH_LEVELS, solved_loading, value_at_level
+from contactsim.status import is_solved
+
+CHAPTER_4_HEIGHT = 5000.0
+"""Height of the bodies of Chapter 4, nm."""
+HEIGHTS = ("on_5um", "on_one_period", "on_two_periods")
+"""Bodies: of Chapter 4's height, as high as the period, and twice as high."""
+HEIGHT_NUMBERS = ("area_at_12nm", "pressure_at_20nm")
+"""Numbers at an approach, which depends on the height of the body."""
+BY_HEIGHT = tuple(f"{number}_{height}" for height in HEIGHTS for number in HEIGHT_NUMBERS)
+CURVE_APPROACHES = np.arange(1.0, APPROACH_LEVELS[1] + 1)
+"""Approaches (nm) beyond first touch at which load curves are read."""
+CURVE_DIMENSION = "curve_approach"
+CURVES = ("pressure_curve", *(f"pressure_curve_{height}" for height in HEIGHTS))
+"""Mean pressure over E* at `CURVE_APPROACHES`, on a half-space and on each body."""
+ERROR = "_increment_error"
+
+
+def readings_on_bodies(data: xr.Dataset, uniaxial_modulus: float | None) -> dict[str, xr.DataArray]:
+    """Return `BY_HEIGHT` and `CURVES` of paths, with the errors of their increments.
+
+    uniaxial_modulus: C11, GPa; None where it is not known or varies, for the load curve on a half-space alone
+    """
+    heights = {} if uniaxial_modulus is None else dict(zip(HEIGHTS, _heights(data), strict=True))
+    area = data["relative_interacting_area" if "relative_interacting_area" in data else "relative_contact_area"]
+    pressure = data.normalised_pressure.where(is_solved(data.status))
+    indentation = data.approach - data.approach_first_touch
+    readings: dict[str, xr.DataArray] = {}
+    for name, height in {"": 0.0, **heights}.items():
+        compression = pressure * data.contact_modulus / (uniaxial_modulus or np.inf) * height
+        columns = xr.apply_ufunc(
+            _read_on_body,
+            *(indentation, compression, area, pressure),
+            input_core_dims=[["step"]] * 4,
+            output_core_dims=[["number"], [CURVE_DIMENSION]] * 2,
+            vectorize=True,
+        )
+        for (numbers, curve), end in zip((columns[:2], columns[2:]), ("", ERROR), strict=True):
+            readings[f"pressure_curve{'_' * bool(name)}{name}{end}"] = curve
+            if name:
+                readings |= {f"{key}_{name}{end}": numbers[..., place] for place, key in enumerate(HEIGHT_NUMBERS)}
+    return {name: _with_approaches(values) for name, values in readings.items()}
+
+
+def _heights(data: xr.Dataset) -> tuple[float | xr.DataArray, ...]:
+    """Return the heights of the bodies `HEIGHTS`, nm."""
+    return CHAPTER_4_HEIGHT, data.length, 2 * data.length
+
+
+def _with_approaches(values: xr.DataArray) -> xr.DataArray:
+    """Return a load curve with its approaches, and a number as it is."""
+    return values.assign_coords({CURVE_DIMENSION: CURVE_APPROACHES}) if CURVE_DIMENSION in values.dims else values
+
+
+def _read_on_body(indentation: Array, added: Array, area: Array, pressure: Array) -> tuple[Array, ...]:
+    """Return `HEIGHT_NUMBERS` and a load curve of a path on loading, and their changes without every second state.
+
+    States that the body passes in a jump, because it is more compliant than the contact, are left out: the approach
+    never falls back. All (step,); added: compression of the body.
+    """
+    pressure, approach, area = solved_loading(indentation, pressure, indentation + added, area)
+    rises = approach > np.concatenate(([-np.inf], np.maximum.accumulate(approach)[:-1]))
+    approach, columns = approach[rises], (area[rises], pressure[rises])
+    parts = slice(None), slice(approach.size % 2 == 0, None, 2)
+    numbers, coarse_numbers = (
+        np.array([value_at_level(approach[part], x, y[part]) for x, y in zip(APPROACH_LEVELS, columns, strict=True)])
+        for part in parts
+    )
+    curve, coarse_curve = (load_curve_at(approach[part], columns[1][part], CURVE_APPROACHES) for part in parts)
+    return numbers, curve, np.abs(coarse_numbers - numbers), np.abs(coarse_curve - curve)
+
+
+def load_curve_at(approach: Array, pressure: Array, levels: Array) -> Array:
+    """Return the pressure at some approaches, interpolated by a monotone cubic; NaN beyond the curve.
+
+    approach, pressure: (step,), the approach ascending
+    """
+    from scipy.interpolate import PchipInterpolator  # takes longer to import than to interpolate
+
+    if approach.size < 2:
+        return np.full(len(levels), np.nan)
+    return PchipInterpolator(approach, pressure, extrapolate=False)(levels)
