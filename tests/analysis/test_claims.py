@@ -9,7 +9,7 @@ import xarray as xr
 
 from contactsim.analysis import claims
 from contactsim.analysis.claims import judge
-from contactsim.analysis.comparison import Comparison
+from contactsim.analysis.comparison import SECOND_STUDY, Comparison
 from contactsim.analysis.conditions import narrower_blocks
 from contactsim.analysis.quantities import FITTED, mean_quantity, with_quantities
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS
@@ -343,7 +343,10 @@ def test_orders_have_second_rows_too():
 # --- two studies --------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("key", "word", "value"), [("relative_to", "over", 0.9), ("minus", "minus", -0.2)])
+@pytest.mark.parametrize(
+    ("key", "word", "value"),
+    [("relative_to", "over", 0.9), ("minus", "minus", -0.2), ("departs_from", "against", -0.1)],
+)
 def test_a_comparison_names_both_studies_and_asks_for_both(key, word, value):
     settings = claim(**{key: "rough_surface"}, expect=value, tolerance=0.05)
     assert claims.comparison_text(settings) == f"mean of kappa in rough_line {word} rough_surface"
@@ -403,7 +406,7 @@ def test_the_table_shows_every_claim_in_the_colour_of_its_verdict():
 def test_verdicts_depend_on_claims_code_and_every_study_asked():
     settings = PLAN.claims_settings("ch3")
     asked = [part for _, entry in settings["claims"] for part in (entry, *(entry["cases"] or {}).values())]
-    studies = {entry[key] for entry in asked for key in ("study", "relative_to", "minus")}
+    studies = {entry[key] for entry in asked for key in ("study", *SECOND_STUDY)}
     studies |= {name for entry in asked for name in entry["more_members"] or ()}
     assert set(settings["data"]) == studies - {None}
     assert settings["data"] != Plan.read(ROOT / "config", "full").claims_settings("ch3")["data"]

@@ -160,7 +160,8 @@ class JumpCriterion:
     def is_minor(self, before: Side, after: Side) -> bool:
         """Return True if a step holds no jump that needs locating: none at all, or that of one contact among many.
 
-        On approach alone, and for steps no longer than the laws' length, or twice that where the energy balances.
+        A motion that is too small for a jump holds none, however short the step. Else on approach alone, and for steps
+        no longer than the laws' length, or twice that where the energy balances.
         Beside a hard wall, steps of a load are taken whole: how far they move a surface that the wall pushes is not
         known before.
 
@@ -171,6 +172,8 @@ class JumpCriterion:
         """
         step, state = after
         if step.control is Trait.MEAN_PRESSURE and self.problem.wall is not None:
+            return True
+        if self.problem.wall is None and not self.is_jump(step, 0.0, state.largest_change):
             return True
         if step.control is not Trait.APPROACH:
             return False
