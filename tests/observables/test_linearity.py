@@ -14,9 +14,9 @@ from contactsim.observables.linearity import (
     area_load_numbers,
     curvature,
     nonlinearity,
-    rise_approach,
     solved_loading,
     summarise_area_load,
+    value_after_contact,
     value_at_level,
     values_at_loads,
 )
@@ -76,21 +76,16 @@ def test_a_level_is_interpolated_where_a_curve_reaches_it_and_missing_elsewhere(
 APPROACH = np.arange(0.0, 11.0)
 
 
-def test_the_rise_of_a_gradient_begins_at_an_area_of_a_thousandth_and_ends_near_that_of_all():
-    ratio = np.minimum(0.5 + 0.1 * APPROACH, 1.0)
-    assert rise_approach(APPROACH, 4e-4 * APPROACH, ratio) == pytest.approx(4.5 - 2.5)
+def test_the_gradient_after_contact_is_read_2_nm_after_an_area_of_a_thousandth():
+    ratio = 0.5 + 0.1 * APPROACH
+    assert value_after_contact(APPROACH, 4e-4 * APPROACH, ratio) == pytest.approx(0.95)  # at 4.5 nm
     no_contact = np.where(APPROACH < 2, np.nan, ratio)  # a state without contact has no gradient
-    assert rise_approach(APPROACH, 4e-4 * APPROACH, no_contact) == pytest.approx(4.5 - 2.5)
+    assert value_after_contact(APPROACH, 4e-4 * APPROACH, no_contact) == pytest.approx(0.95)
 
 
-def test_a_gradient_that_is_that_of_all_at_once_rises_within_one_step():
-    area = np.where(APPROACH < 3, 0.0, 0.01)
-    assert rise_approach(APPROACH, area, np.where(APPROACH < 3, np.nan, 1.1)) == pytest.approx(1 - 0.1)
-
-
-@pytest.mark.parametrize(("first_area", "ratio"), [(0.01, 1.0), (0.0, 0.9), (0.0, np.nan)])
-def test_a_path_that_begins_late_or_a_gradient_that_stays_small_has_no_rise(first_area, ratio):
-    assert np.isnan(rise_approach(APPROACH, first_area + 4e-4 * APPROACH, ratio + 0 * APPROACH))
+@pytest.mark.parametrize(("first_area", "slope"), [(0.01, 4e-4), (0.0, 1.1e-4), (0.0, 0.0)])
+def test_a_path_that_begins_late_or_ends_early_has_no_gradient_after_contact(first_area, slope):
+    assert np.isnan(value_after_contact(APPROACH, first_area + slope * APPROACH, 1 + 0 * APPROACH))
 
 
 def test_a_single_unknown_state_is_bridged_and_two_end_the_loading():

@@ -35,7 +35,7 @@ CRITERIA = {
 """Length of contact and gradient over it by each criterion beside that of a hundredth of the strength."""
 CRITERION_NUMBERS = (
     *("nonlinearity", "nonlinearity_reduced", "area_at_zero_load", "area_at_load_0_001"),
-    *("area_at_12nm", "area_at_20nm", "gradient_ratio_at_area_0_02", "gradient_rise_approach"),
+    *("area_at_12nm", "area_at_20nm", "gradient_ratio_at_area_0_02", "gradient_ratio_2nm_after_contact"),
 )
 """Numbers that depend on the criterion."""
 BY_CRITERION = tuple(f"{number}_{criterion}" for criterion in CRITERIA for number in CRITERION_NUMBERS)

@@ -35,11 +35,11 @@ AREA_LOAD = (
     *AREA_LEVELS,
     *LOAD_LEVELS,
     *("area_at_12nm", "pressure_at_12nm", "area_at_20nm", "pressure_at_20nm"),
-    *("gradient_ratio_at_area_0_02", "gradient_rise_approach"),
+    *("gradient_ratio_at_area_0_02", "gradient_ratio_2nm_after_contact"),
 )
 """Numbers that summarise a curve of area against load; those with `_reduced` use p_r*, the others p/E*."""
-FIRST_AREA, NEARLY_ALL = 0.001, 0.95
-"""Relative area from which the gradient over the contact is followed, and the part of that of all that it rises to."""
+FIRST_AREA, AFTER_CONTACT = 0.001, 2.0
+"""Relative area at which a contact begins, and the approach (nm) after it at which the gradient is read."""
 MIN_STATES = 3
 """Smallest number of states that a parabola is fitted to."""
 
@@ -108,29 +108,13 @@ def value_at_level(quantity: Array, level: float, values: Array) -> float:
     return float(values[after - 1] + share * (values[after] - values[after - 1]))
 
 
-def rise_approach(approach: Array, area: Array, ratio: Array) -> float:
-    """Return the approach from a relative area of 0.001 to where the gradient over the contact is 0.95 of that of all.
+def value_after_contact(approach: Array, area: Array, values: Array) -> float:
+    """Return the value 2 nm after the relative area first is 0.001; all (step,).
 
-    Parameters
-    ----------
-    approach, area
-        Approach, nm, and relative area, (step,).
-    ratio
-        Gradient over the contact, over that of all, (step,).
-
-    Returns
-    -------
-    nm. If the first state beyond that area has such a gradient, all of the approach to it counts. NaN for a path that
-    begins with a larger area, or whose gradient does not rise so far.
+    NaN for a path that begins with a larger area, or that ends before.
     """
     start = value_at_level(area, FIRST_AREA, approach)
-    reached = np.flatnonzero((area >= FIRST_AREA) & (ratio >= NEARLY_ALL))
-    if np.isnan(start) or not reached.size:
-        return np.nan
-    end = reached[0]
-    if area[end - 1] < FIRST_AREA:
-        return float(approach[end] - start)
-    return value_at_level(ratio[end - 1 :], NEARLY_ALL, approach[end - 1 :]) - start
+    return np.nan if np.isnan(start) else value_at_level(approach, start + AFTER_CONTACT, values)
 
 
 def bridge_gaps(columns: list[Array], share: float) -> list[Array]:
@@ -213,7 +197,7 @@ def _read_curve(indentation: Array, columns: list[Array], surface_gradient: floa
     numbers += [value_at_level(indentation, x, values) for x in APPROACH_LEVELS for values in (area, pressure)]
     ratio = gradient / surface_gradient if surface_gradient > 0 else np.full_like(gradient, np.nan)
     numbers += [value_at_level(area, AREA_LEVELS["pressure_at_area_0_02"], ratio)]
-    return np.array([*numbers, rise_approach(indentation, area, ratio)])
+    return np.array([*numbers, value_after_contact(indentation, area, ratio)])
 
 
 def summarise_area_load(data: xr.Dataset, area: str, gradient: str) -> xr.Dataset:
