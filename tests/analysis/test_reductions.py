@@ -141,3 +141,22 @@ def test_the_numbers_of_many_halves_are_those_of_each(name):
         one = {key: value.isel(split=split) if key == "against" else value for key, value in inputs.items()}
         found = reduction.places(searched.isel(split=split), **one)
         assert float(numbers[split]) == reduction.measure_at(found, measured.isel(split=split), **one)
+
+
+def test_curves_depart_from_another_by_a_share_of_its_largest_value():
+    curve = array([1.0, -4.0, 2.0], curve_approach=[1.0, 2.0, 3.0])
+    curves = curve + array([0.0, 1.0], work_of_separation=WORKS)
+    departure = measures.departure_of_curves(curves, curve)
+    assert np.allclose(departure.sel(work_of_separation=1.0), 0.0)
+    assert np.allclose(departure.sel(work_of_separation=2.0), 0.5)
+    halves = xr.concat([curve, 2 * curve], SPLIT)
+    assert np.allclose(measures.departure_of_curves(halves + 1, halves).isel({SPLIT: 1}), 0.25)
+    assert np.isnan(measures.departure_of_curves(curves, curve.where(curve > 1.5))).all()
+
+
+def test_the_largest_difference_of_two_curves_counts_the_one_that_they_depart_from():
+    above = array([[0.2, 0.3], [0.1, 0.4]], work_of_separation=WORKS, curve_approach=[1.0, 2.0])
+    largest = REDUCTIONS["largest_difference"]
+    assert largest(above, along="work_of_separation") == pytest.approx(0.4)
+    assert largest(-above, along="work_of_separation") == pytest.approx(0.4)
+    assert largest(above - 0.25, along="work_of_separation") == pytest.approx(0.15)
