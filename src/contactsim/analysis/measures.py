@@ -148,26 +148,6 @@ def correlation(values: xr.DataArray, against: xr.DataArray) -> float:
     return float(np.corrcoef(first.values.ravel(), second.values.ravel())[0, 1])
 
 
-def rising_steps(values: xr.DataArray, along: str) -> xr.DataArray:
-    """Return the changes from one value of a dimension to the next, positive where the quantity rises."""
-    return values.diff(along)
-
-
-def falling_steps(values: xr.DataArray, along: str) -> xr.DataArray:
-    """Return the changes from one value of a dimension to the next, positive where the quantity falls."""
-    return -values.diff(along)
-
-
-def steps_from_one(values: xr.DataArray, along: str) -> xr.DataArray:
-    """Return the changes of the distance to one along a dimension, positive where the quantity departs from one."""
-    return abs(values - 1).diff(along)
-
-
-def steps_to_one(values: xr.DataArray, along: str) -> xr.DataArray:
-    """Return the changes of the distance to one along a dimension, positive where the quantity comes closer to one."""
-    return -abs(values - 1).diff(along)
-
-
 def _logarithm(values: xr.DataArray) -> xr.DataArray:
     """Return the natural logarithms."""
     return xr.apply_ufunc(np.log, values)

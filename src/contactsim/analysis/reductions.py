@@ -15,7 +15,7 @@ from typing import Any
 
 import xarray as xr
 
-from contactsim.analysis import measures
+from contactsim.analysis import measures, order_steps
 from contactsim.analysis.measures import Places
 
 
@@ -132,10 +132,10 @@ REDUCTIONS: dict[str, Reduction] = {
 }
 """Reductions to one number, by the name that claims give them."""
 ORDERS: dict[str, Callable[[xr.DataArray, str], xr.DataArray]] = {
-    "rising_steps": measures.rising_steps,
-    "falling_steps": measures.falling_steps,
-    "steps_from_one": measures.steps_from_one,
-    "steps_to_one": measures.steps_to_one,
+    "rising_steps": order_steps.rising_steps,
+    "falling_steps": order_steps.falling_steps,
+    "steps_from_one": order_steps.steps_from_one,
+    "steps_to_one": order_steps.steps_to_one,
 }
 """Reductions to the steps of an ordered quantity, `along` a dimension; each step has its own error."""
 
