@@ -1,6 +1,6 @@
 """Kill a workflow again and again, with SIGKILL at random moments, and compare its results with an undisturbed one.
 
-    python benchmarks/kills.py FOLDER REFERENCE [COUNT]    # 60 kills by default: half an hour
+    python benchmarks/kills.py FOLDER REFERENCE [COUNT]    # 60 kills by default: half an hour, alone
 
 FOLDER is a clone with its environment and no results, REFERENCE another one in which `make all TIER=quick` was done
 without disturbance by the same code. Victims in turn: the main process; a job, and two seconds later all; all processes
@@ -24,7 +24,7 @@ from pathlib import Path
 
 TABLE = Path(__file__).with_suffix(".csv")
 COUNT, TIER, PATIENCE, PAUSE = 60, "quick", 30.0, 2.0
-START, WINDOW = 6.0, 12.0
+START, WINDOW = 6.0, 30.0
 """Seconds after the start until the first moment of a kill, and from there to the last."""
 MARK = "CONTACTSIM_KILLS"
 REPRODUCIBLE = ("runs/**/*.nc", "datasets/*.nc", "decisions/**/*.json", "figures/fig_*.csv")
