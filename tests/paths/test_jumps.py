@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import pytest
 
+from contactsim.contact.loading import approaches, pressures, sliding
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.half_space import HalfSpace
+from contactsim.elasticity.layer import Layer
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
+from contactsim.interface.lattice import Lattice
 from contactsim.paths.adaptive import Adaptive
 from contactsim.paths.continuation import Continuation
-from contactsim.surfaces.shapes import Cylinder, Flat, Sphere
+from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid, Sphere
 from support.smooth import along, walk
 
 SHAPES = {"line": (Cylinder(radius=2000.0, length=1000.0), 512), "surface": (Sphere(radius=2000.0, length=1000.0), 64)}
@@ -75,12 +78,48 @@ def test_a_loose_tolerance_takes_no_more_work_and_finds_the_same_jumps(name):
     assert loose.jumps == exact.jumps
 
 
+PATTERNED = Scene(
+    Body(Flat(length=40.0)),
+    Body(Flat(length=40.0), HalfSpace(1.0, 0.499)),
+    CohesiveZone(work_of_separation=3.3, tangential_length=1.3),
+    along(-4.03, -3.53, 0.25),
+)
+"""Flat bodies that jump towards each other in patterns. A pattern can stand anywhere along them."""
+
+
+def jumps_of(scene, points, **options):
+    """Both loads of each jump of a path."""
+    states = walk(scene, points, **options).states
+    return [(jump.step_before.value, jump.step.value) for state in states for jump in state.jumps]
+
+
 def test_states_that_drift_by_less_than_a_jump_are_not_sought_in_ever_smaller_steps(accepted):
-    flat = Flat(length=40.0)
-    law = CohesiveZone(work_of_separation=3.3, tangential_length=1.3)
-    scene = Scene(Body(flat), Body(flat, HalfSpace(1.0, 0.499)), law, along(-4.03, -3.53, 0.25))
     increments = Adaptive(error=0.005, least=0.014, most=7.0, fold_width=3e-5)
-    # the pattern of a flat body that has jumped can stand anywhere, so a loose tolerance lets it drift
-    path = walk(scene, 64, tolerance=5e-4, increments=increments)
-    assert path.statuses == {"CONVERGED"} and sum(len(state.jumps) for state in path.states) >= 1
+    exact = jumps_of(PATTERNED, 64, tolerance=1e-7, increments=increments)
+    assert [after for _, after in exact] == pytest.approx([-4.010, -3.845, -3.681], abs=0.002)
+    accepted.clear()
+    found = jumps_of(PATTERNED, 64, tolerance=5e-4, increments=increments)  # a loose tolerance lets patterns drift
+    assert [after for _, after in found][:2] == pytest.approx([after for _, after in exact][:2], abs=0.02)
     assert len(accepted) < 200
+
+
+def test_the_first_step_of_a_load_may_hide_a_jump_however_far_the_surface_moves():
+    surface = Sinusoid(length=1000.0, amplitude=12.0)
+    scene = Scene(HalfSpace(1.0), surface, NormalCohesiveZone(work_of_separation=0.15), pressures([5e-4, 8e-3, 1.2e-2]))
+    ((before, after),) = jumps_of(scene, 256)
+    assert 0.005 < before < after < 0.0052
+
+
+@pytest.mark.parametrize("increment", [2.44, 4.88])
+def test_a_slip_by_whole_cells_is_found_though_the_surface_is_as_before(increment):
+    cylinder, cell = Cylinder(radius=2000.0, length=1000.0), 2.44
+    path = approaches([0.0, 2.0]) >> sliding([0.0, 4 * cell], increment, approach=2.0)
+    bodies = Body(Flat.facing(cylinder)), Body(cylinder, HalfSpace(1.0, 0.3))
+    assert len(jumps_of(Scene(*bodies, CohesiveZone(0.15, 0.15), path, Lattice(cell)), 512)) == 4
+
+
+def test_a_jump_is_found_in_a_step_that_ends_where_the_surface_was():
+    flat = Flat(length=40.0)
+    law, path = NormalCohesiveZone(work_of_separation=3.3), approaches([1.0, 0.5, 0.0, -30.0])
+    ((before, after),) = jumps_of(Scene(Body(flat), Body(flat, Layer(1.0, 0.3, 20.0)), law, path), 64)
+    assert -20.9 < after < before < -20.8

@@ -160,8 +160,8 @@ class JumpCriterion:
     def is_minor(self, before: Side, after: Side) -> bool:
         """Return True if a step holds no jump that needs locating: none at all, or that of one contact among many.
 
-        A motion that is too small for a jump holds none, however short the step. Else on approach alone, and for steps
-        no longer than the laws' length, or twice that where the energy balances.
+        A short step that moves the surface by less than the smallest jump holds none. Else on approach alone, and for
+        steps no longer than the laws' length, or twice that where the energy balances.
         Beside a hard wall, steps of a load are taken whole: how far they move a surface that the wall pushes is not
         known before.
 
@@ -173,7 +173,7 @@ class JumpCriterion:
         step, state = after
         if step.control is Trait.MEAN_PRESSURE and self.problem.wall is not None:
             return True
-        if self.problem.wall is None and not self.is_jump(step, 0.0, state.largest_change):
+        if self._is_too_small(before, after):
             return True
         if step.control is not Trait.APPROACH:
             return False
@@ -185,6 +185,19 @@ class JumpCriterion:
         ratio = CALM_RATIO if self.problem.wall is None else 1 + CALM_RATIO
         patches = max(self._count_patches(before[1]), self._count_patches(state))
         return state.largest_change <= ratio * increment or patches > MANY_PATCHES[len(self.problem.grid.shape)]
+
+    def _is_too_small(self, before: Side, after: Side) -> bool:
+        """Return True if a step and its motion together are shorter than the smallest jump.
+
+        On a longer step a jump may be undone by other motion: after a slip over a lattice a surface is where it was, a
+        cell further.
+        """
+        (start, _), (step, state) = before, after
+        smallest = JUMP_LENGTH * self.problem.interaction_range
+        if step.held is not None:
+            smallest = min(smallest, self.problem.lattice_constant / 2)
+        length = self._length(step, abs(step.value - start.value)) + state.largest_change
+        return self.problem.wall is None and length <= smallest
 
     def _is_balanced(self, before: Side, after: Side, increment: float) -> bool:
         """Return True if the work of the load over a short step equals the change of energy.
