@@ -82,7 +82,7 @@ def kill(victim: str, main: subprocess.Popen, mark: str, draw: random.Random) ->
 def digests(clone: Path) -> dict[str, str]:
     """Return the digests of all reproducible results; pictures are none, as times stand in them."""
     folder = clone / "results" / TIER
-    found = sorted(path for pattern in REPRODUCIBLE for path in folder.glob(pattern))
+    found = sorted(path for pattern in REPRODUCIBLE for path in folder.glob(pattern) if not path.name.startswith("."))
     return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest() for path in found}
 
 
@@ -118,6 +118,7 @@ def main() -> int:
     one, other = digests(clone), digests(reference)
     different = sorted(name for name in one.keys() | other.keys() if one.get(name) != other.get(name))
     print(f"exit code {code}; {len(one)} results, {len(different)} differ", *different[:10])
+    print(f"{len([*clone.glob('results/**/.*.*')])} temporary files of killed jobs are left")
     with TABLE.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, list(rows[0]))
         writer.writeheader()

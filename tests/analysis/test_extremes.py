@@ -8,6 +8,7 @@ import pytest
 from contactsim.analysis.claims import judge
 from contactsim.analysis.comparison import Comparison
 from contactsim.analysis.extremes import NO_EXTREME, describe_extreme
+from contactsim.analysis.wording import extreme_text
 from support.claims import BANDLESS, claim, made_up
 
 LARGEST = claim(**BANDLESS, reduce="largest", at_most=2.05, neutral=2.0)
@@ -61,3 +62,17 @@ def test_an_unknown_value_may_hide_the_extreme():
 def test_a_finding_has_a_place_and_no_share():
     found = described(LARGEST | {"is_finding": True, "at_most": None, "neutral": None}, tilted())
     assert found["extreme_at"] == "H = 0.8, p* = 0.1" and np.isnan(found["share_in_band"])
+
+
+@pytest.mark.parametrize(
+    ("row", "text"),
+    [
+        ({"extreme_at": "H = 0.2", "share_in_band": 0.334}, "at H = 0.2; 33% of all in the band"),
+        ({"extreme_at": "H = 0.2", "share_in_band": 1.0}, "at H = 0.2"),
+        ({"extreme_at": "H = 0.2", "share_in_band": np.nan}, "at H = 0.2"),
+        ({"extreme_at": "", "share_in_band": np.nan}, ""),
+        ({"extreme_at": np.nan}, ""),
+    ],
+)
+def test_the_place_is_told_with_the_share_unless_that_is_all(row, text):
+    assert extreme_text(row) == text

@@ -60,10 +60,12 @@ def test_a_curve_is_unknown_beyond_its_last_state_and_from_one_state():
     assert np.isnan(load_curve_at(np.ones(1), np.ones(1), np.array([1.0]))).all()
 
 
-def test_the_error_of_a_curve_is_its_change_without_every_second_state():
-    exact = 1e-4 * STEPS**2
-    found = readings_on_bodies(rough_path(exact), None)
-    change = found["pressure_curve_increment_error"].values
-    kept = CURVE_APPROACHES % 2 == 0
-    assert np.max(change[kept]) < 1e-12 < 1e-8 < np.min(change[~kept])
-    assert np.max(change) < 1e-3 * exact.max()
+def test_the_error_of_a_curve_is_zero_at_solved_states_and_small_between_them():
+    path = rough_path(1e-4 * STEPS**2)
+    at_states = readings_on_bodies(path, None)["pressure_curve_increment_error"]
+    assert np.abs(at_states).max() < 1e-12
+    between = readings_on_bodies(path.assign(approach_first_touch=-5.5), None)
+    exact = 1e-4 * (CURVE_APPROACHES - 0.5) ** 2
+    true_error = np.abs(between["pressure_curve"].values - exact)[2:]
+    error = between["pressure_curve_increment_error"].values[2:]
+    assert (error > true_error).all() and error.max() < 1e-3 * exact.max()

@@ -1,4 +1,4 @@
-"""The comparison of a claim: a quantity of one study, or its ratio or difference in two, reduced to one number.
+"""The comparison of a claim: a quantity of one study, or its ratio, difference or departure in two, as one number.
 
 Two studies are compared at the loads and variants that both have. A key that only one of them varies is compared at
 each of its values.
@@ -30,9 +30,11 @@ Arguments = tuple[xr.DataArray, dict[str, Any]]
 SECOND_STUDY: dict[str, tuple[str, Callable[[Any, Any], Any]]] = {
     "relative_to": ("over", operator.truediv),
     "minus": ("minus", operator.sub),
-    "departs_from": ("against", departure_of_curves),
+    "departs_from": ("beside", departure_of_curves),
 }
 """Keys of a claim that name a second study: the word for what is done with it, and the operation."""
+NO_CHANGE = {"relative_to": 1.0, "minus": 0.0, "departs_from": 0.0}
+"""Values where both studies agree, by these keys."""
 MAX_BLOCKS = 20
 """Largest number of blocks into which an ensemble is divided to leave out one after the other."""
 PATH_DIMENSIONS = ("step", "snapshot", "x", "fold", "event")
@@ -141,7 +143,7 @@ class Comparison:
         return self._values(data, self.claim["quantity"], halves), inputs
 
     def _values(self, data: Datasets, name: str, halves: Halves | None = None) -> xr.DataArray:
-        """Return a quantity, or its ratio or difference in two studies, without what is absent.
+        """Return a quantity, or what it is in one study beside another, without what is absent.
 
         halves: of each split, the members of each group that are in a half, for values along `SPLIT`
         """

@@ -9,7 +9,7 @@ import xarray as xr
 from contactsim.analysis.ensemble import converged
 from contactsim.grid import Array
 from contactsim.observables.adhesion import GRADIENTS
-from contactsim.observables.linearity import APPROACH_LEVELS, AREA_LEVELS, value_after_contact, value_at_level
+from contactsim.observables.linearity import APPROACH_LEVELS, AREA_LEVELS, value_at_level
 
 CRITERIA = {"rms_gradient_repulsive": "contact_length", **GRADIENTS}
 """Length of contact by each criterion, by the gradient over it."""
@@ -23,19 +23,17 @@ def criterion_numbers(approach: Array, area: Array, pressure: Array, ratio: Arra
         value_at_level(approach, APPROACH_LEVELS[0], area),
         value_at_level(area, SMALL_AREA, pressure),
         value_at_level(area, SMALL_AREA, ratio),
-        value_after_contact(approach, area, ratio),
     )
 
 
-NUMBERS = ("area_at_12nm", "pressure_at_area_0_02", "gradient_ratio_at_area_0_02", "gradient_ratio_2nm_after_contact")
-"""Area, pressure over E*, ratio of gradients, and that ratio 2 nm after an area of 0.001."""
+NUMBERS = ("area_at_12nm", "pressure_at_area_0_02", "gradient_ratio_at_area_0_02")
+"""Area, pressure over E*, and ratio of gradients."""
 
 
 def compare_criteria(data: xr.Dataset) -> pd.DataFrame:
     """Return `NUMBERS` by each criterion, one row a variant and criterion: means over members, their standard errors.
 
-    data: of a study of rough adhesive paths that varies something. A number that some member does not have has no mean,
-    as of a path that begins with a larger area.
+    data: of a study of rough adhesive paths that varies something. A number that some member does not have has no mean.
     """
     tables = []
     for gradient, length in CRITERIA.items():

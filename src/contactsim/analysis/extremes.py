@@ -15,16 +15,19 @@ NO_EXTREME: Mapping[str, object] = {"extreme_at": "", "share_in_band": float("na
 def describe_extreme(claim: Mapping, comparison: Comparison) -> dict[str, object]:
     """Return the place of the extreme in words, and the share of all loads and variants with a value in the band.
 
-    Both are empty for a number that is no extreme of single values, where one of them is unknown, and at one place.
-    A finding has no band and no share.
+    Both are those of the means over all members. A finding has no band, so no share. There is neither for
+
+    - a number that is not the least or the largest of single values;
+    - values of which one is unknown, or does not exist;
+    - a single value.
     """
-    found = None if claim["absent"] is not None or comparison.is_empty else comparison.extreme()
-    if found is None or found[0].size < 2 or bool(found[0].isnull().any()):
+    extreme = None if claim["absent"] is not None or comparison.is_empty else comparison.extreme()
+    if extreme is None or extreme[0].size < 2 or bool(extreme[0].isnull().any()):
         return dict(NO_EXTREME)
-    values, place = found
-    there = values.isel(place)
-    words = ", ".join(range_text(str(dim), *[float(there[dim])] * 2) for dim in values.dims)
+    values, place = extreme
+    coordinates = values.isel(place)
+    place_text = ", ".join(range_text(str(dim), *[float(coordinates[dim])] * 2) for dim in values.dims)
     if claim["is_finding"]:
-        return {**NO_EXTREME, "extreme_at": words}
+        return {**NO_EXTREME, "extreme_at": place_text}
     low, high = band(claim)
-    return {"extreme_at": words, "share_in_band": float(((values > low) & (values < high)).mean())}
+    return {"extreme_at": place_text, "share_in_band": float(((values > low) & (values < high)).mean())}

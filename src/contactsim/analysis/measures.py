@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from contactsim.observables.body_readings import CURVE_DIMENSION
 from contactsim.variables import LOADS
 
 SPLIT = "split"
@@ -108,7 +109,7 @@ def largest_spread(values: xr.DataArray, places: Places, along: str) -> float:
 
 
 def largest_difference(values: xr.DataArray, places: Places, along: str) -> float:
-    """Return the largest difference between any two values along a dimension, or one and zero, over the others.
+    """Return the largest difference between any two values along a dimension, or between one and zero, over the others.
 
     Of departures from a curve, zero is that curve.
     """
@@ -181,13 +182,13 @@ def slopes(values: xr.DataArray, against: xr.DataArray, along: str) -> xr.DataAr
 
 
 def departure_of_curves(values: xr.DataArray, reference: xr.DataArray) -> xr.DataArray:
-    """Return the difference of two curves over the largest value of the second, at any load and variant."""
-    return (values - reference) / reference.max(_all_but_splits(reference), skipna=False)
+    """Return the difference of curves from others over the largest value of each of these, along the curve."""
+    return (values - reference) / reference.max(CURVE_DIMENSION, skipna=False)
 
 
 def _with_zero(values: xr.DataArray, along: str) -> xr.DataArray:
     """Return the values, and zeros as one more along a dimension, which loses its coordinates."""
-    zeros = xr.zeros_like(values.isel({along: [0]})).where(values.isel({along: [0]}).notnull())
+    zeros = xr.zeros_like(values.isel({along: [0]}))
     return xr.concat([values.drop_vars(along, errors="ignore"), zeros.drop_vars(along, errors="ignore")], along)
 
 

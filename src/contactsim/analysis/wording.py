@@ -71,7 +71,7 @@ STUDY_PHRASES = {
     "probe_low_friction": "low friction",
 }
 """Studies that statements compare, in words."""
-STUDIES = re.compile(r" in (\w+) (over|minus|against) (\w+)")
+STUDIES = re.compile(r" in (\w+) (over|minus|beside) (\w+)")
 """Both studies in the measure of a claim."""
 NAME = re.compile(r"[a-z]\w*")
 """A name of a quantity or a dimension, or a word, in the measure of a claim."""
@@ -140,6 +140,15 @@ def beside_text(row: Mapping[str, Any]) -> str:
     margin = row.get("beside_margin", np.nan)
     sure = "" if np.isnan(margin) else f" (margin {short_number(margin)})"
     return f"{quantity_text(name)} {number_text(row, 'beside_')}, {row['beside_verdict']}{sure}"
+
+
+def extreme_text(row: Mapping[str, Any]) -> str:
+    """Return where an extreme lies, and for which share of loads and variants the value is in the band; or nothing."""
+    place = row.get("extreme_at")
+    if not isinstance(place, str) or not place:
+        return ""
+    share = row.get("share_in_band", np.nan)
+    return f"at {place}; {share:.0%} of all in the band" if share < 1 else f"at {place}"
 
 
 def choices_text(row: Mapping[str, Any]) -> str:

@@ -1,4 +1,4 @@
-"""Load curves of rough contacts at even approaches, and what the height of the body does to them.
+"""Load curves of rough contacts at even approaches, on a half-space and on bodies of finite height.
 
 The text gives no height of the body. On a half-space the mean displacement is zero by convention. A body of height h
 adds p h/C11 to the approach. If it is half as high as the period, the longest wave is stiffer by 8 %. This is left out.
@@ -33,13 +33,16 @@ def readings_on_bodies(data: xr.Dataset, uniaxial_modulus: float | None) -> dict
 
     uniaxial_modulus: C11, GPa; None where it is not known or varies, for the load curve on a half-space alone
     """
-    heights = {} if uniaxial_modulus is None else dict(zip(HEIGHTS, _heights(data), strict=True))
     area = data["relative_interacting_area" if "relative_interacting_area" in data else "relative_contact_area"]
     pressure = data.normalised_pressure.where(is_solved(data.status))
     indentation = data.approach - data.approach_first_touch
+    bodies = {CURVES[0]: 0.0 * pressure}
+    if uniaxial_modulus is not None:
+        strain = pressure * data.contact_modulus / uniaxial_modulus
+        heights = (CHAPTER_4_HEIGHT, data.length, 2 * data.length)
+        bodies |= {curve: strain * height for curve, height in zip(CURVES[1:], heights, strict=True)}
     readings: dict[str, xr.DataArray] = {}
-    for name, height in {"": 0.0, **heights}.items():
-        compression = pressure * data.contact_modulus / (uniaxial_modulus or np.inf) * height
+    for curve, compression in bodies.items():
         columns = xr.apply_ufunc(
             _read_on_body,
             *(indentation, compression, area, pressure),
@@ -47,39 +50,41 @@ def readings_on_bodies(data: xr.Dataset, uniaxial_modulus: float | None) -> dict
             output_core_dims=[["number"], [CURVE_DIMENSION]] * 2,
             vectorize=True,
         )
-        for (numbers, curve), end in zip((columns[:2], columns[2:]), ("", ERROR), strict=True):
-            readings[f"pressure_curve{'_' * bool(name)}{name}{end}"] = curve
-            if name:
-                readings |= {f"{key}_{name}{end}": numbers[..., place] for place, key in enumerate(HEIGHT_NUMBERS)}
-    return {name: _with_approaches(values) for name, values in readings.items()}
+        for end, numbers, pressures in (("", *columns[:2]), (ERROR, *columns[2:])):
+            readings[f"{curve}{end}"] = pressures.assign_coords({CURVE_DIMENSION: CURVE_APPROACHES})
+            height = curve.removeprefix(CURVES[0])
+            for place, name in enumerate(HEIGHT_NUMBERS if height else ()):
+                readings[f"{name}{height}{end}"] = numbers[..., place]
+    return readings
 
 
-def _heights(data: xr.Dataset) -> tuple[float | xr.DataArray, ...]:
-    """Return the heights of the bodies `HEIGHTS`, nm."""
-    return CHAPTER_4_HEIGHT, data.length, 2 * data.length
-
-
-def _with_approaches(values: xr.DataArray) -> xr.DataArray:
-    """Return a load curve with its approaches, and a number as it is."""
-    return values.assign_coords({CURVE_DIMENSION: CURVE_APPROACHES}) if CURVE_DIMENSION in values.dims else values
-
-
-def _read_on_body(indentation: Array, added: Array, area: Array, pressure: Array) -> tuple[Array, ...]:
-    """Return `HEIGHT_NUMBERS` and a load curve of a path on loading, and their changes without every second state.
+def _read_on_body(indentation: Array, compression: Array, area: Array, pressure: Array) -> tuple[Array, ...]:
+    """Return `HEIGHT_NUMBERS` and a load curve of a path on loading, and their errors; all (step,).
 
     States that the body passes in a jump, because it is more compliant than the contact, are left out: the approach
-    never falls back. All (step,); added: compression of the body.
+    never falls back. The error of a number is its change without every second state, that of a curve the smaller of its
+    changes without one or the other half of the states: at a solved state it is zero.
+
+    compression: of the body, nm, which adds to the approach
     """
-    pressure, approach, area = solved_loading(indentation, pressure, indentation + added, area)
+    pressure, approach, area = solved_loading(indentation, pressure, indentation + compression, area)
     rises = approach > np.concatenate(([-np.inf], np.maximum.accumulate(approach)[:-1]))
-    approach, columns = approach[rises], (area[rises], pressure[rises])
-    parts = slice(None), slice(approach.size % 2 == 0, None, 2)
-    numbers, coarse_numbers = (
-        np.array([value_at_level(approach[part], x, y[part]) for x, y in zip(APPROACH_LEVELS, columns, strict=True)])
-        for part in parts
+    approach, area, pressure = approach[rises], area[rises], pressure[rises]
+    last_half, other_half = slice(int(approach.size % 2 == 0), None, 2), slice(int(approach.size % 2), None, 2)
+    numbers, coarse = (
+        np.array(
+            [
+                value_at_level(approach[part], level, column[part])
+                for level, column in zip(APPROACH_LEVELS, (area, pressure), strict=True)
+            ]
+        )
+        for part in (slice(None), last_half)
     )
-    curve, coarse_curve = (load_curve_at(approach[part], columns[1][part], CURVE_APPROACHES) for part in parts)
-    return numbers, curve, np.abs(coarse_numbers - numbers), np.abs(coarse_curve - curve)
+    curve, *halves = (
+        load_curve_at(approach[part], pressure[part], CURVE_APPROACHES) for part in (slice(None), last_half, other_half)
+    )
+    changes = [np.abs(half - curve) for half in halves]
+    return numbers, curve, np.abs(coarse - numbers), np.fmin(*changes)
 
 
 def load_curve_at(approach: Array, pressure: Array, levels: Array) -> Array:

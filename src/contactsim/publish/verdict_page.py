@@ -14,7 +14,7 @@ from contactsim.analysis.causes import FAILING, UNKNOWN
 from contactsim.analysis.quantities import SECOND_ESTIMATORS
 from contactsim.analysis.rounding import ABSENT, is_order, number_text, short_number
 from contactsim.analysis.verdict import FINDING, NOT_DECIDABLE
-from contactsim.analysis.wording import candidates_text, measure_text, printed, readings_text
+from contactsim.analysis.wording import candidates_text, extreme_text, measure_text, printed, readings_text
 from contactsim.publish.gallery import counts_markdown
 from contactsim.publish.markdown import plain_words, table
 from contactsim.publish.open_questions import undecided_text, undetermined_text
@@ -35,8 +35,8 @@ data are those of the standard tier: `make all`, `make gallery` and `python docs
 - *Allowed*: the band of values that agree with the sentence, and why that band.
 - *Value ± errors*: the number, its ensemble error (one standard error over random surfaces) and that of grid,
   increments, jumps and approaches together, rounded to two digits of both. *None*: there is no such error; *not
-  known*: there is one, and nobody knows it; *exact*: a formula. For an order the worst step over its error. Under an
-  extreme stands where it lies, and the share of all loads and variants whose value is in the band.
+  known*: there is one, and nobody knows it; *exact*: a formula. For an order the worst step over its error. Under the
+  least or largest of single values stands where it lies, and the share of all loads and variants in the band.
 - *Margin*: the distance to the edge of the band in errors. Below 2 there is no verdict: *not decidable*.
 - *Place*: 0 at the value stated, 1 at the edge of the band. Near 1 the choice of the band decides; the verdict says so.
 - *Half; double band*: the verdicts with bands of half and of twice the width, where one differs.
@@ -137,7 +137,7 @@ def _statement_cells(row: Mapping) -> tuple[str, ...]:
         _statement_text(row),
         _with_note(_reading_text(row), _text(row, "data")),
         _with_note(_band_text(row), _band_reason(row)),
-        _with_note(number_text(row), _extreme_text(row)),
+        _with_note(number_text(row), extreme_text(row)),
         _with_note(row["verdict"], EDGE_NOTE if _is_at_edge(row) else ""),
         *(short_number(float(row.get(name, float("nan")))) for name in ("margin", "place")),
         _other_bands_text(row),
@@ -226,12 +226,6 @@ def _band_reason(row: Mapping) -> str:
 def _verdict_text(row: Mapping, prefix: str) -> str:
     """Return the verdict of one of both estimators with its margin."""
     return f"{_text(row, f'{prefix}verdict')} ({short_number(float(row[f'{prefix}margin']))})"
-
-
-def _extreme_text(row: Mapping) -> str:
-    """Return where an extreme lies, and at which share of loads and variants the value is in the band."""
-    place, share = _text(row, "extreme_at"), float(row.get("share_in_band", float("nan")))
-    return f"at {place}; {share:.0%} of all in the band" if place and share < 1 else f"at {place}" if place else ""
 
 
 def _other_bands_text(row: Mapping) -> str:

@@ -9,6 +9,7 @@ from contactsim.analysis.comparison import SECOND_STUDY
 from contactsim.analysis.quantities import GRADIENT_DEFICITS, SIZES
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS, reduction_inputs
 from contactsim.errors import InputError
+from contactsim.observables.body_readings import CURVES
 from contactsim.observables.dataset_forms import AVERAGED, KEPT_NUMBERS
 from contactsim.study.quantity_names import quantities
 from contactsim.study.study import Study
@@ -73,6 +74,10 @@ def check_quantities(settings: dict, studies: Mapping[str, Study], dims: list[st
     if len(seconds) > 1:
         raise InputError(prefix, seconds, "one of them", file)
     shared = _shared_quantities(settings, seconds[0], studies, file, prefix) if seconds else own
+    if seconds == ["departs_from"]:
+        shared = [name for name in shared if name in CURVES]
+    elif settings["reduce"] == "largest_difference":
+        raise InputError(f"{prefix}.departs_from", None, "a study, for `largest_difference` counts its curve", file)
     allowed = {"quantity": shared, "against": own, "along": dims, "across": dims}
     check_one_of(settings, "reduce", [*REDUCTIONS, *ORDERS], file, prefix)
     inputs = reduction_inputs(settings["reduce"])
