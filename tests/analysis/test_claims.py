@@ -366,7 +366,8 @@ LACKING = {
     "ch5": [
         *("error_bars", "area_larger", "linearity_breaks", "error_bars_larger", "heights_ordered", "hurst_ordered"),
         *("gap_heights", "gap_hurst", "heights_linear", "hurst_linear", "no_slip", "no_slip_compressible"),
-        *("uncoupled", "compressibility_adhesive", "friction", "hurst_step", "slipped_share"),
+        *("uncoupled", "compressibility_adhesive", "friction", "gradient_after_contact_wall", "hurst_step"),
+        "slipped_share",
     ],
     "ch6": ["share_in_tension"],
 }
