@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import xarray as xr
 
 from contactsim.observables.body_readings import (
     BY_HEIGHT,
@@ -15,18 +14,10 @@ from contactsim.observables.body_readings import (
     readings_on_bodies,
 )
 from contactsim.reference.hard_wall import uniaxial_modulus
+from support.rough_readings import LENGTH, MODULUS, STEPS, rough_path
 
-STEPS = np.arange(0.0, 31.0)
-LENGTH, MODULUS = 1000.0, 2.0
 STIFFNESS = uniaxial_modulus(1.5, 0.3)
 BODIES = ((5000.0, "on_5um"), (LENGTH, "on_one_period"), (2 * LENGTH, "on_two_periods"))
-
-
-def rough_path(pressure: np.ndarray = 1e-4 * STEPS) -> xr.Dataset:
-    """A path whose pressure and area rise in proportion to the approach."""
-    columns = {"approach": STEPS - 5.0, "normalised_pressure": pressure, "relative_interacting_area": STEPS / 60}
-    data = xr.Dataset({name: ("step", values) for name, values in (columns | {"status": 0 * STEPS}).items()})
-    return data.assign(length=LENGTH, contact_modulus=MODULUS, approach_first_touch=-5.0)
 
 
 def test_a_body_of_finite_height_reaches_an_approach_under_a_smaller_pressure():

@@ -18,7 +18,7 @@ from contactsim.analysis.ensemble import converged
 from contactsim.analysis.rough_paths import with_indentation
 from contactsim.analysis.scales import body_settings
 from contactsim.grid import Array
-from contactsim.observables.body_readings import CHAPTER_4_HEIGHT
+from contactsim.observables.body_readings import CHAPTER_4_HEIGHT, is_beyond_all_before
 from contactsim.reference import hard_wall
 
 SAMPLES = 241
@@ -44,7 +44,7 @@ def curve_of_body(data: xr.Dataset, height: float) -> Curve:
     approach = data.indentation.values + compression
     is_known = np.isfinite(approach)
     approach, pressure = approach[is_known], pressure[is_known]
-    rises = approach > np.concatenate(([-np.inf], np.maximum.accumulate(approach)[:-1]))
+    rises = is_beyond_all_before(approach)
     return approach[rises], pressure[rises]
 
 

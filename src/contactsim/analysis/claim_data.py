@@ -28,7 +28,7 @@ def data_text(claim: Mapping, data: Sequence[xr.Dataset]) -> str:
     """
     if not data:
         return ""
-    words = ["", *(word for key, (word, _) in SECOND_STUDY.items() if claim[key])]
+    words = ["", *(second.word for key, second in SECOND_STUDY.items() if claim[key])]
     selected = Comparison(claim, data).select(claim["select"]).data
     parts = [f"{word} {NAME_MARKS.format(name)}" for word, name in zip(words, studies_of(claim), strict=True)]
     texts = [f"{part}: {_size_text(study)}" for part, study in zip(parts, selected, strict=True)]

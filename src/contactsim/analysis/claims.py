@@ -58,7 +58,7 @@ def comparison_text(claim: Mapping) -> str:
         return "" if claim["formula"] is None else f"exact number: {claim['formula'].replace('_', ' ')}"
     inputs = [f" {name} {claim[name]}" for name in ("against", "along", "across") if claim[name] is not None]
     second = "".join(
-        f" in {claim['study']} {word} {claim[key]}" for key, (word, _) in SECOND_STUDY.items() if claim[key]
+        f" in {claim['study']} {compared.word} {claim[key]}" for key, compared in SECOND_STUDY.items() if claim[key]
     )
     cases = f", worst of {1 + len(claim['cases'])} cases" if claim["cases"] else ""
     return f"{claim['reduce']} of {claim['quantity']}{second}{''.join(inputs)}{cases}"

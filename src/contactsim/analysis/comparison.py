@@ -10,7 +10,7 @@ import functools
 import math
 import operator
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -27,14 +27,25 @@ Halves = Sequence[Sequence[Array]]
 """Of each split of ensembles, the places of the members of each that are in a half."""
 Arguments = tuple[xr.DataArray, dict[str, Any]]
 """A quantity, and the further inputs of its reduction."""
-SECOND_STUDY: dict[str, tuple[str, Callable[[Any, Any], Any]]] = {
-    "relative_to": ("over", operator.truediv),
-    "minus": ("minus", operator.sub),
-    "departs_from": ("beside", departure_of_curves),
+
+
+class StudyComparison(NamedTuple):
+    """What is done with a second study.
+
+    word: for it, between the names of both studies; operation: on the values of both; no_change: where both agree
+    """
+
+    word: str
+    operation: Callable[[Any, Any], Any]
+    no_change: float
+
+
+SECOND_STUDY = {
+    "relative_to": StudyComparison("over", operator.truediv, 1.0),
+    "minus": StudyComparison("minus", operator.sub, 0.0),
+    "departs_from": StudyComparison("beside", departure_of_curves, 0.0),
 }
-"""Keys of a claim that name a second study: the word for what is done with it, and the operation."""
-NO_CHANGE = {"relative_to": 1.0, "minus": 0.0, "departs_from": 0.0}
-"""Values where both studies agree, by these keys."""
+"""Keys of a claim that name a second study, and what is done with it."""
 MAX_BLOCKS = 20
 """Largest number of blocks into which an ensemble is divided to leave out one after the other."""
 PATH_DIMENSIONS = ("step", "snapshot", "x", "fold", "event")
@@ -169,7 +180,7 @@ class Comparison:
 
     def _combine(self, values: Sequence[xr.DataArray]) -> xr.DataArray:
         """Return the values of one study, or those of two combined."""
-        operations = [operation for key, (_, operation) in SECOND_STUDY.items() if self.claim[key] is not None]
+        operations = [second.operation for key, second in SECOND_STUDY.items() if self.claim[key] is not None]
         return operations[0](*values) if len(values) > 1 else values[0]
 
     def _members_left(self, data: Datasets, index: int) -> tuple[int, Array]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.analysis.comparison import NO_CHANGE, Comparison
+from contactsim.analysis.comparison import SECOND_STUDY, Comparison
 from contactsim.analysis.reductions import ORDERS, REDUCTIONS
 from contactsim.analysis.uncertainty import MIN_MARGIN, NAN, Estimate, estimate_steps
 
@@ -47,7 +47,7 @@ def neutral_value(claim: Mapping) -> float | None:
     reduction = REDUCTIONS[claim["reduce"]]
     if reduction.neutral is not None:
         return reduction.neutral
-    return next((value for key, value in NO_CHANGE.items() if claim[key] is not None), None)
+    return next((second.no_change for key, second in SECOND_STUDY.items() if claim[key] is not None), None)
 
 
 def band(claim: Mapping, scale: float = 1.0) -> tuple[float, float]:

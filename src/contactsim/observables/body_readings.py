@@ -20,12 +20,15 @@ HEIGHTS = ("on_5um", "on_one_period", "on_two_periods")
 HEIGHT_NUMBERS = ("area_at_12nm", "pressure_at_20nm")
 """Numbers at an approach, which depends on the height of the body."""
 BY_HEIGHT = tuple(f"{number}_{height}" for height in HEIGHTS for number in HEIGHT_NUMBERS)
+"""Names of these numbers on each body."""
 CURVE_APPROACHES = np.arange(1.0, APPROACH_LEVELS[1] + 1)
 """Approaches (nm) beyond first touch at which load curves are read."""
 CURVE_DIMENSION = "curve_approach"
+"""Dimension of load curves."""
 CURVES = ("pressure_curve", *(f"pressure_curve_{height}" for height in HEIGHTS))
 """Mean pressure over E* at `CURVE_APPROACHES`, on a half-space and on each body."""
 ERROR = "_increment_error"
+"""End of the name of the error that increments leave in a number."""
 
 
 def readings_on_bodies(data: xr.Dataset, uniaxial_modulus: float | None) -> dict[str, xr.DataArray]:
@@ -68,7 +71,7 @@ def _read_on_body(indentation: Array, compression: Array, area: Array, pressure:
     compression: of the body, nm, which adds to the approach
     """
     pressure, approach, area = solved_loading(indentation, pressure, indentation + compression, area)
-    rises = approach > np.concatenate(([-np.inf], np.maximum.accumulate(approach)[:-1]))
+    rises = is_beyond_all_before(approach)
     approach, area, pressure = approach[rises], area[rises], pressure[rises]
     last_half, other_half = slice(int(approach.size % 2 == 0), None, 2), slice(int(approach.size % 2), None, 2)
     numbers, coarse = (
@@ -85,6 +88,11 @@ def _read_on_body(indentation: Array, compression: Array, area: Array, pressure:
     )
     changes = [np.abs(half - curve) for half in halves]
     return numbers, curve, np.abs(coarse - numbers), np.fmin(*changes)
+
+
+def is_beyond_all_before(approach: Array) -> Array:
+    """Return which states of a path have a larger approach than all before them, bool (step,)."""
+    return approach > np.concatenate(([-np.inf], np.maximum.accumulate(approach)[:-1]))
 
 
 def load_curve_at(approach: Array, pressure: Array, levels: Array) -> Array:

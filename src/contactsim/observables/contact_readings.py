@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim.grid import Array
-from contactsim.observables.body_readings import BY_HEIGHT, CURVES, readings_on_bodies
+from contactsim.observables.body_readings import BY_HEIGHT, CURVES, ERROR, readings_on_bodies
 from contactsim.observables.linearity import (
     APPROACH_LEVELS,
     LOAD_LEVELS,
@@ -53,7 +53,6 @@ UP_TO_APPROACH = {"rms_slip": "rms_slip_to_20nm", "slipped_share": "slipped_shar
 """Largest numbers of a state on loading up to 20 nm, where a law reads the tangential gap."""
 READINGS = (*BY_CRITERION, *CURVES, *BY_HEIGHT, *AT_LOAD, *AT_APPROACH.values(), *BY_WAVES, *UP_TO_APPROACH.values())
 """Names of all these numbers."""
-ERROR = "_increment_error"
 
 
 @dataclass(frozen=True)

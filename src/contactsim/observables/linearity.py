@@ -49,14 +49,14 @@ def values_at_loads(pressure: Array, values: Array, loads: Array) -> Array:
 
     pressure, values: (step,). Before the last rise adhesive contacts carry the same load at other areas.
     """
-    found = np.full(len(loads), np.nan)
+    interpolated = np.full(len(loads), np.nan)
     for number, load in enumerate(loads):
         rises = np.flatnonzero((pressure[:-1] < load) & (pressure[1:] >= load))
         if rises.size:
             before = rises[-1]
             share = (load - pressure[before]) / (pressure[before + 1] - pressure[before])
-            found[number] = values[before] + share * (values[before + 1] - values[before])
-    return found
+            interpolated[number] = values[before] + share * (values[before + 1] - values[before])
+    return interpolated
 
 
 def nonlinearity(area: Array, pressure: Array, abscissa: Array, reach: float) -> float:

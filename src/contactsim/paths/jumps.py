@@ -142,12 +142,14 @@ class JumpCriterion:
         """
         if increment == np.inf:
             return False
-        smooth = JUMP_LENGTH * self.problem.interaction_range
-        if not leaves_unstable:
-            smooth = max(JUMP_RATIO * self._length(step, increment), smooth)
+        return distance > self._longest_motion(step, 0.0 if leaves_unstable else self._length(step, increment))
+
+    def _longest_motion(self, step: LoadStep, length: float) -> float:
+        """Return the distance (nm) up to which a motion is no jump; length: that of the step's own motion, nm."""
+        smooth = max(JUMP_RATIO * length, JUMP_LENGTH * self.problem.interaction_range)
         if step.held is not None:  # a slip of half a cell is a jump, however long the step
             smooth = min(smooth, self.problem.lattice_constant / 2)
-        return distance > smooth
+        return smooth
 
     def slips_half_a_cell(self, before: Equilibrium, after: Equilibrium) -> bool:
         """Return True if a point near contact has slipped over a lattice by more than half a cell."""
@@ -160,10 +162,9 @@ class JumpCriterion:
     def is_minor(self, before: Side, after: Side) -> bool:
         """Return True if a step holds no jump that needs locating: none at all, or that of one contact among many.
 
-        A short step that moves the surface by less than the smallest jump holds none. Else on approach alone, and for
-        steps no longer than the laws' length, or twice that where the energy balances.
-        Beside a hard wall, steps of a load are taken whole: how far they move a surface that the wall pushes is not
-        known before.
+        A step that is, with its motion, shorter than the smallest jump holds none. Else on approach alone, and for
+        steps no longer than the laws' length, or twice that where the energy balances. Beside a hard wall, steps of a
+        load are taken whole: how far they move a surface that the wall pushes is not known before.
 
         Parameters
         ----------
@@ -193,11 +194,8 @@ class JumpCriterion:
         cell further.
         """
         (start, _), (step, state) = before, after
-        smallest = JUMP_LENGTH * self.problem.interaction_range
-        if step.held is not None:
-            smallest = min(smallest, self.problem.lattice_constant / 2)
         length = self._length(step, abs(step.value - start.value)) + state.largest_change
-        return self.problem.wall is None and length <= smallest
+        return self.problem.wall is None and length <= self._longest_motion(step, 0.0)
 
     def _is_balanced(self, before: Side, after: Side, increment: float) -> bool:
         """Return True if the work of the load over a short step equals the change of energy.
