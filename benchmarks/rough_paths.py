@@ -4,7 +4,7 @@
 
 Thirty-one approaches in steps of 1 nm, each state from the one before, in turns in one process on one thread. An error
 is the largest difference of the mean pressure over the largest one, or of the length in contact over the longest one,
-whichever is larger, from a path of the default solver in steps of 1/16 nm to a tolerance of 1e-6. So a jump that comes
+whichever is larger, from a path of the default solver in steps of 1/64 nm to a tolerance of 1e-6. So a jump that comes
 a step early counts in full.
 
 The ratio is that of CPU times at equal error: of each Verlet path the time, and of the default solver that of its
@@ -29,7 +29,7 @@ from contactsim.solvers.registry import make_solver
 FOLDER = Path(__file__).resolve().parent
 SIZES, HURST_EXPONENTS, WORKS = (1024, 4096, 16384), (0.2, 0.8), (3.5, 10.5)
 TOLERANCES, ROUNDS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6), 3
-STEPS, FINER = 31, 16
+STEPS, FINER = 31, 64
 MODULUS = 70 / (1 - 0.45**2)
 DEFAULT, OTHER = "newton", "mass_weighted_verlet"
 CASE = ("points", "hurst_exponent", "work", "solver", "tolerance")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from contactsim.contact.loading import approaches, pressures, sliding
@@ -12,6 +14,7 @@ from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.interface.lattice import Lattice
 from contactsim.paths.adaptive import Adaptive
 from contactsim.paths.continuation import Continuation
+from contactsim.surfaces.self_affine import SelfAffine
 from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid, Sphere
 from support.smooth import along, walk
 
@@ -51,6 +54,17 @@ def test_steps_without_a_jump_are_taken_whole_and_both_jumps_are_located(accepte
     finer = [jump for state in fine.states for jump in state.jumps]
     assert [fold.step.value for fold in folds] == pytest.approx([fold.step.value for fold in finer], abs=0.005)
     assert [fold.distance for fold in folds] == pytest.approx([fold.distance for fold in finer], rel=0.01)
+
+
+def test_the_last_valley_of_a_nearly_full_contact_closes_between_two_steps(accepted):
+    surface = SelfAffine(10240.0, 0.2, 1280.0, 80.0, rms_height=10.0, seed=1)
+    scene = Scene(HalfSpace(87.8), surface, NormalCohesiveZone(3.5), along(1.5, 4.5, 1.0))
+    steps = walk(scene, 1024, tolerance=1e-4)
+    assert accepted == [1.5, 2.5, 3.5, 4.5]  # none is divided
+    assert not steps.jumps  # it moves by less than five steps
+    finer = walk(replace(scene, path=along(1.5, 4.5, 1 / 32)), 1024, tolerance=1e-6)
+    assert finer.jumps  # told one by one in short steps
+    assert steps.load == pytest.approx(finer.load[::32], rel=1e-3)
 
 
 def test_a_step_releases_energy_where_it_passes_a_jump_alone():

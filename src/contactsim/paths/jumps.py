@@ -22,6 +22,8 @@ MANY_PATCHES, LOADED = {1: 20, 2: 3}, 0.5
 """Loaded patches above which the jump of one contact is not located, by the number of dimensions. A contact has up to
 three on a line, middle and edges, and two on a surface, where to locate every jump of a rough contact takes ten times
 the work of its path. Least traction of a loaded patch, over the laws' strength."""
+SMALL_SHARE = 1 / 20
+"""Share of the loaded points that may jump without being located, as where one valley of many closes."""
 CALM_RATIO = 0.25
 """Distance that a flow moves the surface, over the step of the approach, up to which there is no jump to locate. In
 contact with a hard wall a surface moves by the step itself, and by this more."""
@@ -160,7 +162,7 @@ class JumpCriterion:
         return bool(slip > self.problem.lattice_constant / 2)
 
     def is_minor(self, before: Side, after: Side) -> bool:
-        """Return True if a step holds no jump that needs locating: none at all, or that of one contact among many.
+        """Return True if a step holds no jump that needs locating: none, or that of one contact or valley among many.
 
         A step that is, with its motion, shorter than the smallest jump holds none. Else on approach alone, and for
         steps no longer than the laws' length, or twice that where the energy balances. Beside a hard wall, steps of a
@@ -184,8 +186,17 @@ class JumpCriterion:
         if increment > self.problem.interaction_range * (1 + ROUNDING):
             return False
         ratio = CALM_RATIO if self.problem.wall is None else 1 + CALM_RATIO
+        if state.largest_change <= ratio * increment or self._moves_few_points(before[1], state, increment):
+            return True
         patches = max(self._count_patches(before[1]), self._count_patches(state))
-        return state.largest_change <= ratio * increment or patches > MANY_PATCHES[len(self.problem.grid.shape)]
+        return patches > MANY_PATCHES[len(self.problem.grid.shape)]
+
+    def _moves_few_points(self, before: Equilibrium, after: Equilibrium, increment: float) -> bool:
+        """Return True if few points move farther than the step and half the largest motion, beside those loaded."""
+        motion = np.abs(self.problem.on_heights(after.gap - before.gap)).max(axis=0)
+        moved = np.count_nonzero(motion > max(increment, after.largest_change / 2))
+        loaded = max(np.count_nonzero(self._is_loaded(state)) for state in (before, after))
+        return 0 < moved <= SMALL_SHARE * loaded
 
     def _is_too_small(self, before: Side, after: Side) -> bool:
         """Return True if a step and its motion together are shorter than the smallest jump.
@@ -221,9 +232,12 @@ class JumpCriterion:
 
     def _count_patches(self, state: Equilibrium) -> int:
         """Return the number of loaded patches of a state."""
-        loaded = np.abs(self.problem.on_heights(state.traction[0])) > LOADED * self.problem.strength
         shape = self.problem.heights.shape
-        return PATCH_COUNTERS[len(shape)](loaded.reshape(shape))
+        return PATCH_COUNTERS[len(shape)](self._is_loaded(state).reshape(shape))
+
+    def _is_loaded(self, state: Equilibrium) -> Array:
+        """Return the points of a state that are loaded, bool (n,)."""
+        return np.abs(self.problem.on_heights(state.traction[0])) > LOADED * self.problem.strength
 
     def may_hide_in(self, step: LoadStep, increment: float) -> bool:
         """Return True if a step is divided: it might take smooth motion for a jump, or is wider than a jump may be."""
