@@ -1,11 +1,12 @@
 """What line contacts of few points cost: the default solver beside Polonsky–Keer, in ratios of CPU time.
 
-    pip install -e .[benchmark]
-    python benchmarks/small_lines.py    # about two minutes
+    pip install -e .[benchmark] SurfaceTopography ContactMechanics
+    python benchmarks/small_lines.py    # about five minutes
 
-Solvers take turns in one process on one thread, from the heights to the certified solution. A number is the ratio to
-the default solver, median over the rounds and mean over the members; nan where a solver fails. The shortest wave has
-eight points.
+Solvers take turns in one process on one thread, from the heights to the certified solution. ContactMechanics gets the
+largest tolerance, of two in each decade, at which our certificate accepts its pressure; its certificate is not timed. A
+number is the ratio to the default solver, median over the rounds and mean over the members; nan where a solver fails.
+The shortest wave has eight points.
 """
 
 from __future__ import annotations
@@ -13,6 +14,8 @@ from __future__ import annotations
 import itertools
 import logging
 import time
+from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 from statistics import median
 
@@ -22,6 +25,7 @@ from records import on_one_thread
 from report import insert, markdown
 
 from contactsim import HalfSpace, HardWall, Scene, SelfAffine, pressures
+from contactsim.contact.hard_wall import HardWallProblem
 from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.grid import Array
 from contactsim.solvers.registry import is_installed
@@ -31,7 +35,9 @@ SIZES = (64, 128, 256, 512, 1024, 2048, 4096)
 PRESSURES = (1e-3, 1e-2, 1e-1)
 TOLERANCE, MEMBERS, ROUNDS, GRADIENT = 1e-6, 3, 9, 0.1
 BEGIN, END = "<!-- small lines: written by small_lines.py -->", "<!-- end of small lines -->"
-DEFAULT, OTHERS = "active_set", ("polonsky_keer", "tamaas")
+DEFAULT, OTHERS, PEER = "active_set", ("polonsky_keer", "tamaas"), "ContactMechanics"
+RUNGS = tuple(10 ** (-power / 2) for power in range(8, 25))
+"""Tolerances tried for the peer: 1e-4 to 1e-12, two a decade."""
 
 logger = logging.getLogger("small_lines")
 
@@ -43,11 +49,45 @@ def timed(scene: Scene, heights: Array, solver: str) -> dict:
     return measure.measure_load(problem, scale, solver) | {"seconds": time.thread_time() - begin}
 
 
+def pressed_by_peer(problem: HardWallProblem, tolerance: float) -> Array:
+    """Return the pressure (n,) by ContactMechanics' conjugate gradients of Polonsky and Keer."""
+    from ContactMechanics import PeriodicFFTElasticHalfSpace
+    from ContactMechanics.Optimization import constrained_conjugate_gradients
+    from SurfaceTopography import UniformLineScan
+
+    points, length = problem.size, float(problem.size)
+    limits = dict.fromkeys(("pentol", "forcetol", "thermotol"), tolerance)
+    found = constrained_conjugate_gradients(
+        PeriodicFFTElasticHalfSpace((points,), 1.0, (length,)),
+        UniformLineScan(problem.heights.copy(), length),
+        external_force=problem.prescribed_load * points,
+        maxiter=20000,
+        **limits,
+    )
+    return np.array(found.jac)
+
+
+def timed_peer(scene: Scene, heights: Array, tolerance: float) -> dict:
+    """Return the CPU seconds of the peer at a tolerance, and whether our certificate accepts its pressure."""
+    begin = time.thread_time()
+    problem, _ = pose_hard_wall(scene, scene.path.steps[0], heights, TOLERANCE, 1)
+    pressure = pressed_by_peer(problem, tolerance)
+    spent = time.thread_time() - begin
+    accepted = np.isfinite(pressure).all() and problem.certify(problem.project(pressure))[0].met(TOLERANCE)
+    return {"status": "CONVERGED" if accepted else "REFUSED", "seconds": spent}
+
+
 def ratio(scene: Scene, heights: Array, solver: str) -> float:
     """Return the CPU time of a solver over that of the default one; NaN if it finds no solution."""
+    if solver == PEER:
+        accepted = (rung for rung in RUNGS if timed_peer(scene, heights, rung)["status"] == "CONVERGED")
+        tolerance = next(accepted, RUNGS[-1])
+        measure_other = partial(timed_peer, scene, heights, tolerance)
+    else:
+        measure_other = partial(timed, scene, heights, solver)
     pairs = []
     for _ in range(ROUNDS):
-        own, other = (timed(scene, heights, name) for name in (DEFAULT, solver))
+        own, other = timed(scene, heights, DEFAULT), measure_other()
         assert own["status"] == "CONVERGED"
         if other["status"] != "CONVERGED":  # tamaas, on a contact of a single point
             return np.nan
@@ -79,6 +119,7 @@ def main() -> None:
     """Measure all cases and put their table into the README."""
     on_one_thread()
     solvers = [name for name in OTHERS if name != "tamaas" or is_installed(name)]
+    solvers += [PEER] if find_spec(PEER) else []
     header = ["points", "H", "p*", "transforms", *(f"{name} ÷ {DEFAULT}" for name in solvers)]
     rows = []
     for points, hurst_exponent, pressure in itertools.product(SIZES, (0.2, 0.8), PRESSURES):

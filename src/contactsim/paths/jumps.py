@@ -196,7 +196,7 @@ class JumpCriterion:
         motion = np.abs(self.problem.on_heights(after.gap - before.gap)).max(axis=0)
         moved = np.count_nonzero(motion > max(increment, after.largest_change / 2))
         loaded = max(np.count_nonzero(self._is_loaded(state)) for state in (before, after))
-        return 0 < moved <= SMALL_SHARE * loaded
+        return bool(0 < moved <= SMALL_SHARE * loaded)
 
     def _is_too_small(self, before: Side, after: Side) -> bool:
         """Return True if a step and its motion together are shorter than the smallest jump.

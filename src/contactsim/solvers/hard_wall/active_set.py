@@ -25,7 +25,7 @@ from contactsim.solvers.hard_wall.contact_set import ContactSet, Line
 from contactsim.solvers.hard_wall.negative_gap_preconditioner import block_size
 from contactsim.traits import Trait
 
-FIRST_SHARE, MIN_FIRST = 8.0, 8
+FIRST_SHARE, MIN_FIRST = 8.0, 4
 """Share of the points in the first contact set over a load, which is a reduced pressure, and their smallest number."""
 
 
