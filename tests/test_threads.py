@@ -1,10 +1,16 @@
-"""Threads of dense algebra: as many as are asked for, also in a library that is loaded late."""
+"""Threads of dense algebra, as many as are asked for, also in a library that is loaded late; and shared loops."""
 
 from __future__ import annotations
 
 import os
 import subprocess
 import sys
+import threading
+from multiprocessing import get_context
+
+import pytest
+
+from contactsim.threads import share_work
 
 SCRIPT = """
 from threadpoolctl import threadpool_info
@@ -36,3 +42,45 @@ def test_all_dense_algebra_of_a_path_has_one_thread():
     environment = os.environ | {"OPENBLAS_NUM_THREADS": "4"}
     done = subprocess.run([sys.executable, "-c", SCRIPT], env=environment, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[1]"
+
+
+@pytest.mark.parametrize(("count", "threads"), [(0, 2), (1, 2), (5, 1), (5, 2), (7, 3), (2, 8)])
+def test_every_number_of_a_shared_loop_is_done_once(count, threads):
+    done = []
+    share_work(done.append, count, threads)
+    assert sorted(done) == list(range(count))
+
+
+def test_two_threads_share_a_loop():
+    meeting, names = threading.Barrier(2, timeout=10), set()
+
+    def meet(number):
+        names.add(threading.current_thread().name)
+        meeting.wait()
+
+    share_work(meet, 2, 2)
+    assert len(names) == 2
+
+
+def test_an_error_of_a_shared_loop_is_raised_whichever_thread_meets_it():
+    for failing in range(2):
+        with pytest.raises(ZeroDivisionError):
+            share_work(lambda number, failing=failing: 1 / (number != failing), 2, 2)
+
+
+def share_in_child(connection):
+    done = []
+    share_work(done.append, 4, 2)
+    connection.send(len(done))
+
+
+@pytest.mark.filterwarnings("ignore:.*multi-threaded.*:DeprecationWarning")
+def test_a_forked_process_has_threads_of_its_own():
+    share_work(str, 4, 2)
+    context = get_context("fork")
+    here, there = context.Pipe()
+    child = context.Process(target=share_in_child, args=(there,))
+    child.start()
+    assert here.poll(20)
+    assert here.recv() == 4
+    child.join()

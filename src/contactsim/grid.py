@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contactsim.errors import InputError
+from contactsim.threads import share_work
 
 Array = NDArray[Any]
 """An array of any type and shape; docstrings say which."""
@@ -26,15 +27,21 @@ MAX_THREADS = 1024
 """Most threads of a transform."""
 PADDING = 8
 """Extra columns of a wide field: transforms are several times slower if rows start a power of two apart."""
-BLOCK = 2**20
-"""Points worked on at a time, in whole rows, to keep temporary arrays small."""
+BLOCK, SHARED_BLOCK = 2**20, 2**18
+"""Points worked on at a time, in whole rows, to keep temporary arrays small: by one thread, and by one of several."""
 
 
-def blocks(shape: tuple[int, ...]) -> Iterator[tuple[int, int]]:
+def blocks(shape: tuple[int, ...], points: int = BLOCK) -> Iterator[tuple[int, int]]:
     """Yield the first row of each block of rows and the row after its last; a line is one row."""
     rows = math.prod(shape[:-1])
-    size = max(BLOCK // shape[-1], 1)
+    size = max(points // shape[-1], 1)
     return ((low, min(low + size, rows)) for low in range(0, rows, size))
+
+
+def work_on_blocks(work: Callable[[int, int], object], shape: tuple[int, ...], threads: int) -> None:
+    """Call a function with the first row of each block and the row after its last, on several threads."""
+    places = list(blocks(shape, SHARED_BLOCK))
+    share_work(lambda number: work(*places[number]), len(places), threads)
 
 
 @dataclass(frozen=True)

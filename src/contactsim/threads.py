@@ -1,6 +1,11 @@
-"""Threads of dense algebra."""
+"""Threads: how many dense algebra may take, and loops that several of them share."""
 
 from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from functools import lru_cache
 
 from threadpoolctl import threadpool_limits
 
@@ -14,3 +19,24 @@ def limit_threads(threads: int) -> threadpool_limits:
     import scipy.linalg  # noqa: F401 — takes longer to import than the rest of a solver
 
     return threadpool_limits(threads, "blas")
+
+
+def share_work(work: Callable[[int], object], count: int, threads: int) -> None:
+    """Call a function with the numbers from 0 to before `count`, shared among threads; this one takes part."""
+    shares = max(min(threads, count), 1)
+
+    def take(first: int) -> None:
+        """Do the share of one thread."""
+        for number in range(first, count, shares):
+            work(number)
+
+    others = [_pool(threads - 1, os.getpid()).submit(take, first) for first in range(1, shares)]
+    take(0)
+    for other in others:
+        other.result()
+
+
+@lru_cache(maxsize=1)
+def _pool(threads: int, process: int) -> ThreadPoolExecutor:
+    """Return the threads of a process; they are kept, as starting one takes longer than a loop may."""
+    return ThreadPoolExecutor(threads)

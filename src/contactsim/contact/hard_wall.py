@@ -14,6 +14,8 @@ to the approach afterwards. Of a free half-space it is what the pressure gives.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -22,7 +24,7 @@ import numpy as np
 
 from contactsim.elasticity.fourier_operator import Compliance
 from contactsim.errors import InputError
-from contactsim.grid import Array, TransformCounter, blocks
+from contactsim.grid import Array, TransformCounter, work_on_blocks
 
 
 @dataclass(frozen=True)
@@ -71,13 +73,17 @@ class Profile:
         values /= self.step
         return values
 
-    def subtract_from(self, field: Array) -> None:
+    def subtract_from(self, field: Array, threads: int = 1) -> None:
         """Subtract the heights from a field, in place."""
         if field.ndim == 1:
             field -= self[:]
             return
-        for low, high in blocks(field.shape):
+
+        def subtract(low: int, high: int) -> None:
+            """Subtract some rows."""
             field[low:high] -= self[low:high]
+
+        work_on_blocks(subtract, field.shape, threads)
 
 
 @dataclass(frozen=True)
@@ -178,34 +184,72 @@ class HardWallProblem:
 
     def project(self, pressure: Array, out: Array | None = None) -> Array:
         """Return a pressure cut at zero and scaled to the prescribed load, in memory of its own or in `out`."""
-        result = np.maximum(pressure, 0.0, out=out)
-        if self.load is not None:
-            mean = result.mean()
-            if mean > 0:
-                result *= self.load / mean
-            else:
-                result[...] = self.load
+        result = np.empty_like(pressure) if out is None else out
+        rows, given = np.atleast_2d(result, pressure)
+        totals: list[float] = []
+
+        def cut(low: int, high: int) -> None:
+            """Cut some rows and add up what is left."""
+            np.maximum(given[low:high], 0.0, out=rows[low:high])
+            totals.append(float(rows[low:high].sum(dtype=float)))
+
+        self._work_on_blocks(cut)
+        load = self.load
+        if load is None:
+            return result
+        mean = math.fsum(totals) / result.size
+        if not mean > 0:
+            result[...] = load
+            return result
+
+        def scale(low: int, high: int) -> None:
+            """Scale some rows."""
+            rows[low:high] *= load / mean
+
+        self._work_on_blocks(scale)
         return result
+
+    def _work_on_blocks(self, work: Callable[[int, int], object]) -> None:
+        """Call a function for all blocks of rows of a field; a line is one row."""
+        work_on_blocks(work, self.shape, self.compliance.grid.threads)
 
     def certify(self, pressure: Array) -> tuple[Certificate, Array]:
         """Return the errors of a pressure, and its gap in grid steps, both computed from the pressure alone."""
         gap = self.compliance(pressure)
-        self.profile.subtract_from(gap)
-        contact = pressure > 0
-        touching = gap[contact]
+        self.profile.subtract_from(gap, self.compliance.grid.threads)
+        gaps, pressures = np.atleast_2d(gap, pressure)
+        touching: list[tuple[float, int]] = []
+
+        def add_up(low: int, high: int) -> None:
+            """Add up the gap under pressure, and count its points."""
+            under = gaps[low:high][pressures[low:high] > 0]
+            touching.append((float(under.sum()), under.size))
+
         approach = self.approach
         if approach is None:
-            approach = float(touching.mean()) if touching.size else 0.0
-        gap -= approach
-        touching -= approach
-        gap[contact] = 0.0  # to find the deepest overlap elsewhere
-        lowest = float(gap.min())
-        gap[contact] = touching
+            self._work_on_blocks(add_up)
+            total, count = (math.fsum(numbers) for numbers in zip(*touching, strict=True))
+            approach = total / count if count else 0.0
+        extremes: list[tuple[np.floating, ...]] = []
+
+        def measure(low: int, high: int) -> None:
+            """Count the gap from the approach; find its extremes, and those of the pressure and its sum."""
+            part, carried = gaps[low:high], pressures[low:high]
+            part -= approach
+            contact = carried > 0
+            under = part[contact]
+            part[contact] = 0.0  # to find the deepest overlap elsewhere
+            lowest = part.min()
+            part[contact] = under
+            extremes.append((np.abs(under, out=under).max(initial=0.0), lowest, carried.min(), carried.sum()))
+
+        self._work_on_blocks(measure)
+        widest, lowest, least, sums = np.array(extremes).T
         certificate = Certificate(
-            max_contact_gap=float(np.abs(touching, out=touching).max(initial=0.0)),
-            penetration=0.0 - min(lowest, 0.0),
-            min_pressure=float(pressure.min()),
-            load_error=0.0 if not self.load else float(abs(pressure.mean() / self.load - 1)),
+            max_contact_gap=float(widest.max()),
+            penetration=0.0 - min(float(lowest.min()), 0.0),
+            min_pressure=float(least.min()),
+            load_error=0.0 if not self.load else abs(math.fsum(sums) / pressure.size / self.load - 1),
             approach=approach,
         )
         return certificate, gap

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, Protocol
 
 import ducc0
 import numpy as np
 
-from contactsim.grid import Array, Grid, TransformCounter, blocks
+from contactsim.grid import Array, Grid, TransformCounter, blocks, work_on_blocks
 
 
 @dataclass(frozen=True)
@@ -46,8 +47,12 @@ class RadialSymbol:
         count = self.grid.shape[0]
         half = count // 2 + 1
         values: Array = np.empty((half, self.grid.half_shape[1]), kind)
-        for low, high in blocks((half, self.grid.shape[1])):
+
+        def fill(low: int, high: int) -> None:
+            """Compute the values at some rows."""
             values[low:high] = self.rows(low, high)
+
+        work_on_blocks(fill, (half, self.grid.shape[1]), self.grid.threads)
         return [(slice(half), values), (slice(half, None), values[count - half : 0 : -1])]
 
     def scaled(self, grid: Grid, factor: float) -> RadialSymbol:
@@ -161,8 +166,7 @@ class FourierOperator:
             """Write the product."""
             half = scratch.view(np.complex64)[:, : columns // 2 + 1]
             self.grid.forward(field[:, :columns], out=half)
-            for rows, values in symbol:
-                half[rows] *= values
+            self._multiply(half, symbol)
             overwrite = {"forward": False, "nthreads": self.grid.threads, "allow_overwriting_input": True}
             ducc0.fft.c2r(half, lastsize=columns, out=out[:, :columns], **overwrite)
             self.counter.add(2, self.grid.size)
@@ -176,10 +180,26 @@ class FourierOperator:
         for low, high in rows:
             half[low:high] = ducc0.fft.r2c(values[low:high], inorm=2, **along)
         ducc0.fft.c2c(half, inorm=2, out=half, **across)
-        parts = self._held or ((slice(low, high), self.symbol.rows(low, high)) for low, high in rows)
-        for place, values_there in parts:
-            half[place] *= values_there
+        if self._held:
+            self._multiply(half, self._held)
+        else:
+            work_on_blocks(partial(self._multiply_rows, half), self.grid.shape, self.grid.threads)
         ducc0.fft.c2c(half, forward=False, out=half, **across)
         for low, high in rows:
             result[low:high] = ducc0.fft.c2r(half[low:high], lastsize=columns, forward=False, **along)
         return result
+
+    def _multiply_rows(self, half: Array, low: int, high: int) -> None:
+        """Multiply coefficients by the symbol at some rows, in place."""
+        half[low:high] *= self.symbol.rows(low, high)
+
+    def _multiply(self, half: Array, symbol: list[tuple[slice, Array]]) -> None:
+        """Multiply coefficients by a symbol that is held by slices of rows, in place."""
+        for rows, values in symbol:
+            part = half[rows]
+
+            def multiply(low: int, high: int, part: Array = part, values: Array = values) -> None:
+                """Multiply some rows."""
+                part[low:high] *= values[low:high]
+
+            work_on_blocks(multiply, (part.shape[0], self.grid.shape[1]), self.grid.threads)

@@ -151,7 +151,7 @@ class _Spread:
     def compute_gap(self, problem: HardWallProblem, pressure: Array, contact: Array, out: Array) -> None:
         """Write the gap, computed in double precision, less its level on the contact (bool); the change turns zero."""
         gap = problem.compliance(pressure, out=self._double)
-        problem.profile.subtract_from(gap)
+        problem.profile.subtract_from(gap, problem.compliance.grid.threads)
         if problem.approach is not None:
             level = problem.approach
         else:

@@ -16,13 +16,13 @@ vectorise.
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
 
 import numba
 import numpy as np
 
 from contactsim.grid import Array
+from contactsim.threads import share_work
 
 BLOCK = 128
 """Rows of a block."""
@@ -56,7 +56,7 @@ class Rows:
     def __init__(self, shape: tuple[int, ...], threads: int) -> None:
         self.width = shape[1]
         self.bounds = [(low, min(low + BLOCK, shape[0])) for low in range(0, shape[0], BLOCK)]
-        self._pool = ThreadPoolExecutor(threads) if threads > 1 and len(self.bounds) > 1 else None
+        self._threads = threads
 
     def __call__(self, kernel: Callable[..., None], *arguments: object) -> Array:
         """Return the sums over all rows, then the largest values, shape (SUMS + MAXIMA,)."""
@@ -66,7 +66,7 @@ class Rows:
             """Run the kernel over one block of rows."""
             kernel(*self.bounds[place], self.width, *arguments, sums[place])
 
-        list(self._pool.map(block, range(len(self.bounds))) if self._pool else map(block, range(len(self.bounds))))
+        share_work(block, len(self.bounds), self._threads)
         return np.concatenate((sums[:, :SUMS].sum(axis=0), sums[:, SUMS:].max(axis=0)))
 
 
