@@ -11,7 +11,7 @@ import pytest
 from contactsim.analysis.candidate_shares import FILE
 from contactsim.analysis.causes import Cause, cause_text, claims_without_cause
 from contactsim.analysis.cell_rules import CellRule, admitted_cells, cell_texts, separate_cells
-from contactsim.analysis.claims import cause_numbers
+from contactsim.analysis.claims import Studies, cause_numbers
 from contactsim.analysis.reductions import ORDERS
 from contactsim.analysis.verdict import DEPENDS, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, band
 from contactsim.errors import InputError
@@ -68,9 +68,9 @@ def test_a_number_of_the_data_is_put_into_a_cause():
     cause = Cause(**settings["cause"])
     assert cause.numbers["end"]["quantity"] == settings["quantity"]
     data = {"rough_line": made_up(1.5, tilt=0.5), "rough_line_many": made_up(0.5)}
-    assert cause_numbers(cause, data) == pytest.approx({"end": 2.0, "coarse": 0.5})
+    assert cause_numbers(cause, Studies(data)) == pytest.approx({"end": 2.0, "coarse": 0.5})
     row = ROW | {"value": 1.5, "ensemble_error": 0.01, "grid_error": 0.0}
-    assert cause_text(cause, row, {}, cause_numbers(cause, data)) == "Physics: From 1.500 to 2 (50 %)."
+    assert cause_text(cause, row, {}, cause_numbers(cause, Studies(data))) == "Physics: From 1.500 to 2 (50 %)."
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.analysis.claim_data import data_text
-from contactsim.analysis.claims import judge_cases
+from contactsim.analysis.claims import Studies, judge_cases
 from contactsim.analysis.comparison import Comparison
 from contactsim.analysis.deciding import Effort, deciding_text
 from contactsim.analysis.more_members import with_more_members
@@ -126,7 +126,7 @@ def test_other_surfaces_leave_a_study_as_it_is():
 
 def test_a_claim_takes_the_members_and_says_so():
     fine, coarse = pair()
-    row = judge_cases(claim(**MORE), dict(zip(NAMES, (fine, coarse), strict=True)))
+    row = judge_cases(claim(**MORE), Studies(dict(zip(NAMES, (fine, coarse), strict=True))))
     assert row["members"] == 40
     assert row["data"] == "`rough_line`: 4 members of 262144 points and 40 of 262144 (`rough_line_many`), 3 loads"
     assert data_text(claim(), [fine]) == "`rough_line`: 4 members of 262144 points, 3 loads"

@@ -164,19 +164,38 @@ def _condition_entries(words: str, number: Estimate, share: float) -> dict[str, 
     return {"condition": words, "condition_share": share} | numbers
 
 
-def judge_choices(claim: Mapping, data: Mapping[str, xr.Dataset]) -> list[Choice]:
-    """Return the verdicts with the admissible readings of a claim beside the default; data: dataset of each study."""
+class Studies:
+    """Datasets of studies by name, and those with the members of others, which are made once."""
+
+    def __init__(self, data: Mapping[str, xr.Dataset]) -> None:
+        self._data = data
+        self._with_more: dict[tuple[str, ...], xr.Dataset] = {}
+
+    def of(self, claim: Mapping) -> list[xr.Dataset]:
+        """Return the datasets of the studies of a claim, with the members that it takes from others."""
+        return [self._get(name, *(claim["more_members"] or ())) for name in studies_of(claim)]
+
+    def _get(self, *names: str) -> xr.Dataset:
+        """Return the dataset of the first study, with the members of the others."""
+        if names not in self._with_more:
+            first, *others = (self._data[name] for name in names)
+            self._with_more[names] = with_more_members(first, others)
+        return self._with_more[names]
+
+
+def judge_choices(claim: Mapping, studies: Studies) -> list[Choice]:
+    """Return the verdicts with the admissible readings of a claim beside the default."""
     choices = []
     for name, settings in (claim["admissible"] or {}).items():
-        choices.append(Choice.of(name, judge_cases(settings, data)))
+        choices.append(Choice.of(name, judge_cases(settings, studies)))
     return choices
 
 
-def judge_cases(claim: Mapping, data: Mapping[str, xr.Dataset]) -> dict[str, object]:
-    """Return the row of a claim that holds if it holds in all its cases; data: dataset of each study."""
+def judge_cases(claim: Mapping, studies: Studies) -> dict[str, object]:
+    """Return the row of a claim that holds if it holds in all its cases."""
     rows = {}
     for name, settings in {claim["case"]: claim, **(claim["cases"] or {})}.items():
-        studied = _studied(settings, data)
+        studied = studies.of(settings)
         counted = counted_row(settings, studied)
         measure = comparison_text({**counted, "cases": claim["cases"]})
         words = {"measure": measure, "expected": band_text(counted), "beside": counted["beside"] or ""}
@@ -194,19 +213,13 @@ def _decided_over(claim: Mapping, data: Sequence[xr.Dataset]) -> str:
     return "approaches" if any(f"{claim['quantity']}_approach_error" in study for study in data) else ""
 
 
-def cause_numbers(cause: Cause, data: Mapping[str, xr.Dataset]) -> dict[str, float]:
-    """Return the numbers that a cause defines; data: dataset of each study."""
+def cause_numbers(cause: Cause, studies: Studies) -> dict[str, float]:
+    """Return the numbers that a cause defines."""
     numbers = {}
     for name, settings in cause.numbers.items():
-        comparison = Comparison(settings, _studied(settings, data)).select(settings["select"])
+        comparison = Comparison(settings, studies.of(settings)).select(settings["select"])
         numbers[name] = NAN if comparison.is_empty else comparison.unbiased_number(comparison.data)
     return numbers
-
-
-def _studied(claim: Mapping, data: Mapping[str, xr.Dataset]) -> list[xr.Dataset]:
-    """Return the datasets of the studies of a claim, with the members that it takes from others."""
-    more = [data[name] for name in claim["more_members"] or ()]
-    return [with_more_members(data[name], more) for name in studies_of(claim)]
 
 
 def judge_claims(
@@ -223,15 +236,15 @@ def judge_claims(
     candidates
         Verdicts of sets of parameters that the text admits, of `contactsim.analysis.admissible.read_candidates`.
     """
-    data = {name: part.drop_dims(FIELD_DIMENSIONS, errors="ignore") for name, part in data.items()}
+    studies = Studies({name: part.drop_dims(FIELD_DIMENSIONS, errors="ignore") for name, part in data.items()})
     rows, candidates = [], read_candidates(None) if candidates is None else candidates
     for name, settings in claims.items():
-        choices = judge_choices(settings, data)
-        row = judge_cases(settings, data)
+        choices = judge_choices(settings, studies)
+        row = judge_cases(settings, studies)
         row |= choice_entries(row, choices, candidate_choices(candidates, name)) | candidate_entries(candidates, name)
         cause = None if settings["cause"] is None else Cause(**settings["cause"])
         cells = cell_texts(candidates, name, cause.cell) if cause else {}
-        numbers = cause_numbers(cause, data) if cause and row["verdict"] in FAILING else {}
+        numbers = cause_numbers(cause, studies) if cause and row["verdict"] in FAILING else {}
         rows.append(
             {
                 "claim": name,
