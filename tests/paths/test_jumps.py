@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from contactsim.contact.loading import approaches, pressures, sliding
@@ -65,6 +66,16 @@ def test_the_last_valley_of_a_nearly_full_contact_closes_between_two_steps(accep
     finer = walk(replace(scene, path=along(1.5, 4.5, 1 / 32)), 1024, tolerance=1e-6)
     assert finer.jumps  # told one by one in short steps
     assert steps.load == pytest.approx(finer.load[::32], rel=1e-3)
+
+
+def test_long_steps_among_many_contacts_are_halved_and_not_divided_further(accepted):
+    surface = SelfAffine(10240.0, 0.2, 1280.0, 80.0, rms_height=10.0, seed=1)
+    scene = Scene(HalfSpace(87.8), surface, NormalCohesiveZone(10.5), along(-5.0, 1.0, 1.5))
+    long = walk(scene, 1024, tolerance=1e-4)
+    assert min(np.diff(accepted)) == 0.75  # the law's length is 1
+    short = walk(replace(scene, path=along(-5.0, 1.0, 0.75)), 1024, tolerance=1e-4)
+    assert long.load == pytest.approx(short.load[::2], rel=1e-3)
+    assert long.transforms < 3 * short.transforms
 
 
 def test_a_step_releases_energy_where_it_passes_a_jump_alone():

@@ -16,7 +16,7 @@ from contactsim.contact.steps import LoadStep
 from contactsim.contact.wall import hold_wall, is_beyond_closure
 from contactsim.grid import Array
 from contactsim.paths.extrapolation import MAX_AMPLIFICATION, History
-from contactsim.paths.jumps import FOLD_WIDTH, Jump, JumpCriterion
+from contactsim.paths.jumps import FOLD_WIDTH, Division, Jump, JumpCriterion
 from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium
 from contactsim.solvers.cohesive.linearised import grows_on_its_own
@@ -205,7 +205,7 @@ class Continuation:
         Where continuation fails, the flow from the current state leads on. The step is divided, to find where the jump
         begins, unless it is that of one contact or valley among many. A motion without rest is tried twice.
         """
-        goals, divides, locates, iterations, restless = [step.value], self._divides, False, 0, 0
+        goals, divides, division, iterations, restless = [step.value], self._divides, Division.NONE, 0, 0
         jumps: list[Jump] = []
         beyond: set[float] = set()  # goals beyond the end of the branch
         while True:
@@ -219,21 +219,21 @@ class Continuation:
                 if state.status is Status.MAX_ITERATIONS and state.iterations >= FAILED_STEPS:
                     beyond.add(goal.value)
             if flowed:
-                if not (increment and locates):
+                if not (increment and division is Division.LOCATE):
                     state = self.flow_to(goal)
                     iterations += state.iterations
                     last = self.current if state.is_stable else None
-                    locates = last is None or not self.jumps.is_minor(last, (goal, state))
+                    division = self.jumps.division(last, (goal, state)) if last else Division.LOCATE
                     restless += state.status is Status.NO_REST
                     if restless == MAX_RESTLESS:
                         return state, tuple(jumps), iterations
-                if increment and locates:
+                if increment and division is not Division.NONE:
                     goals.append(goals[-1] - increment / 2)
                     continue
             if state.is_stable:
                 jumps += [jump for jump in [self.accept(goal, state, flowed)] if jump]
                 if flowed:
-                    locates = False
+                    division = Division.NONE
                     beyond.clear()
             elif len(goals) > 1:  # no solution on the way: straight on
                 goals, divides = [step.value], False

@@ -6,6 +6,7 @@ A jump is a motion that the load does not account for: the surface snaps into co
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from enum import Enum
 
 import numpy as np
 
@@ -55,6 +56,14 @@ def _count_areas(loaded: Array) -> int:
     from scipy.ndimage import label  # takes longer to import than a line needs
 
     return int(label(loaded, np.ones((3, 3)))[1])
+
+
+class Division(Enum):
+    """How a step that continuation fails to take is divided."""
+
+    NONE = "not at all"
+    SHORTEN = "until it is no longer than the laws' length"
+    LOCATE = "until the jump in it is located"
 
 
 PATCH_COUNTERS = {1: _count_runs, 2: _count_areas}
@@ -161,12 +170,12 @@ class JumpCriterion:
         slip = np.abs(after.gap[1, close] - before.gap[1, close]).max(initial=0.0)
         return bool(slip > self.problem.lattice_constant / 2)
 
-    def is_minor(self, before: Side, after: Side) -> bool:
-        """Return True if a step holds no jump that needs locating: none, or that of one contact or valley among many.
+    def division(self, before: Side, after: Side) -> Division:
+        """Return how a step that continuation fails to take is divided.
 
-        A step that is, with its motion, shorter than the smallest jump holds none. Else on approach alone, and for
-        steps no longer than the laws' length, or twice that where the energy balances. Beside a hard wall, steps of a
-        load are taken whole: how far they move a surface that the wall pushes is not known before.
+        A step that is, with its motion, shorter than the smallest jump holds none. Else only steps of the approach are
+        taken whole: where the energy balances, and where the jump is that of one contact or valley among many. Beside a
+        hard wall, steps of a load are taken whole: how far they move a surface that the wall pushes is not known.
 
         Parameters
         ----------
@@ -175,20 +184,25 @@ class JumpCriterion:
         """
         step, state = after
         if step.control is Trait.MEAN_PRESSURE and self.problem.wall is not None:
-            return True
+            return Division.NONE
         if self._is_too_small(before, after):
-            return True
+            return Division.NONE
         if step.control is not Trait.APPROACH:
-            return False
+            return Division.LOCATE
         increment = abs(step.value - before[0].value)
         if self._is_balanced(before, after, increment):
-            return True
-        if increment > self.problem.interaction_range * (1 + ROUNDING):
-            return False
+            return Division.NONE
+        if not self._is_among_many(before[1], state, increment):
+            return Division.LOCATE
+        is_short = increment <= self.problem.interaction_range * (1 + ROUNDING)
+        return Division.NONE if is_short else Division.SHORTEN
+
+    def _is_among_many(self, before: Equilibrium, after: Equilibrium, increment: float) -> bool:
+        """Return True if a step of the approach holds no jump, or that of one contact or valley among many."""
         ratio = CALM_RATIO if self.problem.wall is None else 1 + CALM_RATIO
-        if state.largest_change <= ratio * increment or self._moves_few_points(before[1], state, increment):
+        if after.largest_change <= ratio * increment or self._moves_few_points(before, after, increment):
             return True
-        patches = max(self._count_patches(before[1]), self._count_patches(state))
+        patches = max(self._count_patches(before), self._count_patches(after))
         return patches > MANY_PATCHES[len(self.problem.grid.shape)]
 
     def _moves_few_points(self, before: Equilibrium, after: Equilibrium, increment: float) -> bool:
