@@ -190,7 +190,7 @@ def fig_5_7(
             tables.append(rough.plot_against_pressure(axes[0], with_indentation(paths), label, **look))
     rough.label_pressures(axes[0])
     for panel, (value, variant), share in zip(axes[1:], whole.items(), (PICTURE, CLOSE_UP), strict=True):
-        interfaces.plot_waves(panel, variant, coarsest.sel(hurst_exponent=value), share)
+        interfaces.plot_waves(panel, variant, coarsest.sel(hurst_exponent=value), share, style.hurst_colour(value))
         panel.set_title(f"$H={value:g}$", fontsize=9)
     style.add_letters(axes)
     return pd.concat(tables)

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from contactsim.figures import style
-from contactsim.figures.parts.rough_curves import work_label
+from contactsim.figures.parts.rough_curves import WALL_LOOK, work_colours, work_label
 
 INDENTATION = 20.0
 """Approach (nm) beyond first touch of the pictures."""
@@ -55,10 +55,12 @@ def plot_beside_wall(axes: Axes, data: xr.Dataset, wall: xr.Dataset, share: floa
     """Plot the interface with the strongest adhesion, and the surface under a hard wall, over a part of the period."""
     strong = data.sel(work_of_separation=data.work_of_separation.max())
     nodes = nodes_around(strong, highest_place(strong), share)
-    label = work_label(data, float(strong.work_of_separation))
-    table = plot_interface(axes, strong, nodes, colour=style.PAIRS, label=label)
+    work = float(strong.work_of_separation)
+    colour = work_colours(data.work_of_separation.values.tolist())[work]
+    table = plot_interface(axes, strong, nodes, colour=colour, label=work_label(data, work), width=1.2)
     surface = _wall_surface(wall)[nodes]
-    axes.plot(table.x, surface, color=style.WHOLE, lw=0.9, label="hard wall")
+    look: dict[str, Any] = {**WALL_LOOK, "marker": "", "label": "hard wall"}
+    axes.plot(table.x, surface, **look)
     return table.assign(wall=surface)
 
 
@@ -85,7 +87,7 @@ def add_magnification(axes: Axes) -> None:
     box = axes.get_window_extent()
     heights, lengths = (abs(high - low) for low, high in (axes.get_ylim(), axes.get_xlim()))
     times = (box.height / heights) / (box.width / lengths)
-    axes.text(0.01, 0.92, f"heights × {times:.2g}", transform=axes.transAxes, fontsize=7, va="top")
+    axes.text(0.03, 0.92, f"heights × {times:.2g}", transform=axes.transAxes, fontsize=7, va="top")
 
 
 def highest_place(data: xr.Dataset) -> float:
@@ -104,10 +106,10 @@ def nodes_around(data: xr.Dataset, place: float, share: float) -> slice:
     return slice(middle - half, middle + half, step)
 
 
-def plot_waves(axes: Axes, many: xr.Dataset, few: xr.Dataset, share: float) -> None:
-    """Plot the interface around the highest point, with many (thick) and with few short waves (thin)."""
+def plot_waves(axes: Axes, many: xr.Dataset, few: xr.Dataset, share: float, dark: str) -> None:
+    """Plot the interface around the highest point, with many (thick, pale) and with few short waves (thin, dark)."""
     place, handles = highest_place(many), []
-    for data, waves, colour, width in ((many, MANY_WAVES, style.CONTACT, 2.0), (few, FEW_WAVES, style.WHOLE, 0.8)):
+    for data, waves, colour, width in ((many, MANY_WAVES, style.paler(dark), 2.4), (few, FEW_WAVES, dark, 0.8)):
         nodes, filled, label = nodes_around(data, place, share), data is many, waves_label(waves)
         plot_interface(axes, data, nodes, colour=colour, label=label, filled=filled, width=width)
         handles.append(Line2D([], [], color=colour, lw=width, label=label))
