@@ -112,7 +112,7 @@ def variable_colours(variable: str, values: ArrayLike) -> dict[float, str]:
     """Return a colour for each value of a variable that has a hue of its own, from light to dark in their order."""
     hue, usual = HUES[variable]
     keys = sorted({*usual, *map(float, np.asarray(values).ravel())})
-    colours = mpl.colormaps[hue](np.linspace(0.45, 0.9, len(keys)))
+    colours = mpl.colormaps[hue](np.linspace(0.5, 0.92, len(keys)))
     return dict(zip(keys, map(mpl.colors.to_hex, colours), strict=True))
 
 
