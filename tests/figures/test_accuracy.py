@@ -117,7 +117,7 @@ def drawn(jobs=JOBS, members=3, plan=PLAN):
     table["seconds"] = table.work / 1000
     table = table.assign(predicted_work=np.where(table.own, table.work * 1.5, np.nan))
     table["predicted_seconds"] = table.predicted_work / 1000
-    columns = len(accuracy.varied_knobs(table)) + 1
+    columns = len(accuracy.drawn_knobs(table, settings["quantities"][0])) + 1
     figure, panels = empty_figure(
         settings | {"panels": columns}, "footer", rows=2, widths=[1.0] * (columns - 1) + [1.4]
     )
@@ -241,6 +241,14 @@ def test_errors_of_zero_and_infinity_stand_in_margins():
     text = footer_text(table, PLAN)
     assert "without error beyond rounding, at 0: 1" in text
     assert "has no value, at ∞: 1" in text
+
+
+def test_a_knob_with_a_single_error_has_no_panel_and_the_footer_says_how_large_it_is():
+    jobs = JOBS | {"active_set": JOBS["active_set"].copy(deep=True)}
+    jobs["active_set"]["kappa_r"][4] = 4.0  # as exact as at the smallest tolerance
+    axes, table = drawn(jobs)
+    assert [panel.get_title() for panel in axes[0, :-1]] == ["grid points", "members"]
+    assert "tolerance has no panel: its error is at most 0.2" in footer_text(table, PLAN)
 
 
 def test_on_a_surface_its_own_solver_is_the_measure_and_points_are_those_of_a_side():

@@ -19,7 +19,7 @@ from contactsim.evaluation.work_precision import error_cost
 from contactsim.evaluation.work_precision.error_cost import ROUNDING
 from contactsim.figures import style
 from contactsim.figures.diagnostics import knobs
-from contactsim.figures.diagnostics.accuracy_footer import KNOB_NAMES, footer_text, own_solver, varied_knobs
+from contactsim.figures.diagnostics.accuracy_footer import KNOB_NAMES, drawn_knobs, footer_text, own_solver
 from contactsim.figures.diagnostics.accuracy_results import read_results
 from contactsim.figures.layout import empty_figure, save
 from contactsim.files import write_atomically
@@ -54,7 +54,8 @@ def write_accuracy(plan: Mapping[str, Any], files: Mapping[str, Any], targets: M
     member = seconds_of_member(pd.read_csv(files["study_costs"]), plan["selection"] | plan["loads"])
     table = table.assign(seconds=seconds_of_rows(table, results.seconds, member))
     table = with_forecast(table, plan["expected"], results.transform_seconds)
-    quantity, columns = settings["quantities"][0], len(varied_knobs(table)) + 1
+    quantity = settings["quantities"][0]
+    columns = len(drawn_knobs(table, quantity)) + 1
     layout = settings | {"panels": columns}
     widths = [1.0] * (columns - 1) + [LAST_COLUMN]
     figure, panels = empty_figure(layout, footer_text(table, plan), rows=2, widths=widths)
@@ -119,14 +120,14 @@ def plot_accuracy(
     table : one row a setting, with work, seconds and their forecasts
     equal : of `contactsim.evaluation.work_precision.error_cost.compare_solvers`
     values : dataset of the study's own solver
-    axes : (2, varied knobs + 1)
+    axes : (2, drawn knobs + 1)
     plan : as of `write_accuracy`; the error of its first quantity is plotted
     """
     quantity = plan["settings"]["quantities"][0]
     titles = KNOB_NAMES | {knob: f"{KNOB_NAMES[knob]} ({unit})" for knob, unit in plan["units"].items()}
     titles |= {"points": f"{KNOB_NAMES['points']} a side"} if plan["surface"] else {}
     for row, (cost, label) in enumerate(COSTS.items()):
-        for panel, knob in zip(axes[row], varied_knobs(table), strict=False):
+        for panel, knob in zip(axes[row], drawn_knobs(table, quantity), strict=False):
             part = table[table.knob == knob]
             knobs.plot_knob(panel, part, quantity, cost, knobs.names_by_value(plan["marks"], knob))
             _plot_forecast(panel, part[part.own], quantity, cost)

@@ -16,10 +16,19 @@ KNOB_NAMES = {"points": "grid points", "tangential_cutoff": "tangential cutoff"}
     name: name for name in ("tolerance", "increment", "members")
 }
 
+FEWEST = 2
+"""Fewest settings with an error that make a panel."""
+
 
 def varied_knobs(table: pd.DataFrame) -> list[str]:
     """Return the knobs that were varied."""
     return [knob for knob in KNOB_NAMES if (table.knob == knob).any()]
+
+
+def drawn_knobs(table: pd.DataFrame, quantity: str) -> list[str]:
+    """Return the knobs that have a panel: the grid, and those with errors of a quantity at several settings."""
+    with_error = table[table.own & (table[quantity] > ROUNDING)]
+    return [knob for knob in varied_knobs(table) if knob == "points" or (with_error.knob == knob).sum() >= FEWEST]
 
 
 def own_solver(table: pd.DataFrame) -> str:
@@ -37,7 +46,8 @@ def footer_text(table: pd.DataFrame, plan: Mapping[str, Any]) -> str:
     ]
     ensembles = table[table.knob == "members"]
     parts += [f"members varied at {points} points of the study" for points in ensembles.points.unique()]
-    parts += [*_margin_texts(table, settings["quantities"][0]), *_ringless_texts(table, plan)]
+    quantity = settings["quantities"][0]
+    parts += [*_undrawn_texts(table, quantity), *_margin_texts(table, quantity), *_ringless_texts(table, plan)]
     return " · ".join([*parts, *kept_texts(plan["kept"])])
 
 
@@ -73,6 +83,16 @@ def _unit_text(plan: Mapping[str, Any], knob: str) -> str:
     return f" {plan['units'][knob]}" if knob in plan["units"] else ""
 
 
+def _undrawn_texts(table: pd.DataFrame, quantity: str) -> list[str]:
+    """Return the largest error of each knob that has no panel."""
+    texts = []
+    for knob in varied_knobs(table):
+        if knob not in drawn_knobs(table, quantity):
+            largest = table[quantity][table.own & (table.knob == knob)].max()
+            texts.append(f"{KNOB_NAMES[knob]} has no panel: its error is at most {largest:.1g}")
+    return texts
+
+
 def _margin_texts(table: pd.DataFrame, quantity: str) -> list[str]:
     """Return how many settings stand in the margins for errors of zero and of infinity."""
     margins = {
@@ -87,12 +107,12 @@ def _ringless_texts(table: pd.DataFrame, plan: Mapping[str, Any]) -> list[str]:
     quantity, marks = plan["settings"]["quantities"][0], plan["marks"]
     missing = [
         f"{names}, with {KNOB_NAMES[knob]} {value:.7g}{_unit_text(plan, knob)}"
-        for knob in varied_knobs(table)
+        for knob in drawn_knobs(table, quantity)
         for value, names in knobs.names_by_value(marks, knob).items()
         if knobs.marked_rows(table, quantity, knob, value).empty
     ]
     texts = [f"not on the curve of {own_solver(table)}, so without a ring: {'; '.join(missing)}"] if missing else []
     adaptive = [name for name, own in marks.items() if name != "thesis" and "increment" not in own]
-    if adaptive and "increment" in varied_knobs(table):
+    if adaptive and "increment" in drawn_knobs(table, quantity):
         texts.append(f"increments of their own, so without a ring: {', '.join(adaptive)}")
     return texts

@@ -93,7 +93,7 @@ def _with_places(axes: Axes, part: pd.DataFrame, quantity: str) -> pd.DataFrame:
             inner, edges[side] = edges[side], edges[side] * margin ** (2 * side - 1)
             axes.axvspan(inner, edges[side], color="#efefef", lw=0, zorder=0)
             middle = (inner * edges[side]) ** 0.5
-            axes.text(middle, -0.025, label, transform=axes.get_xaxis_transform(), ha="center", va="top")
+            axes.text(middle, 0.98, label, transform=axes.get_xaxis_transform(), ha="center", va="top")
     axes.set_xlim(edges)
     style.set_log_ticks(axes.xaxis, low, high)
     return part.assign(at=errors.mask(zero, low / margin**0.5).mask(infinite, high * margin**0.5))
