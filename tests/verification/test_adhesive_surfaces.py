@@ -11,7 +11,7 @@ from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.grid import Grid
 from contactsim.observables.derived import combine_runs, summarise_paths
 from contactsim.observables.surface_adhesion import negative_area
-from contactsim.paths.jumps import PATCH_COUNTERS
+from contactsim.paths.step_division import PATCH_COUNTERS
 from contactsim.reference import adhesive_sphere
 from contactsim.solvers.cohesive.long_waves import SurfaceWaves, node_averages
 from contactsim.study import execute

@@ -16,8 +16,9 @@ from contactsim.contact.steps import LoadStep
 from contactsim.contact.wall import hold_wall, is_beyond_closure
 from contactsim.grid import Array
 from contactsim.paths.extrapolation import MAX_AMPLIFICATION, History
-from contactsim.paths.jumps import FOLD_WIDTH, Division, Jump, JumpCriterion
+from contactsim.paths.jumps import FOLD_WIDTH, Jump, JumpCriterion
 from contactsim.paths.state import PathState
+from contactsim.paths.step_division import Division, divide_step
 from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium
 from contactsim.solvers.cohesive.linearised import grows_on_its_own
 from contactsim.solvers.cohesive.multipliers import fit_solver
@@ -223,7 +224,7 @@ class Continuation:
                     state = self.flow_to(goal)
                     iterations += state.iterations
                     last = self.current if state.is_stable else None
-                    division = self.jumps.division(last, (goal, state)) if last else Division.LOCATE
+                    division = divide_step(self.jumps, last, (goal, state)) if last else Division.LOCATE
                     restless += state.status is Status.NO_REST
                     if restless == MAX_RESTLESS:
                         return state, tuple(jumps), iterations
