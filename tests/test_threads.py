@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 import threading
+import time
 from multiprocessing import get_context
 
 import pytest
@@ -66,6 +67,20 @@ def test_an_error_of_a_shared_loop_is_raised_whichever_thread_meets_it():
     for failing in range(2):
         with pytest.raises(ZeroDivisionError):
             share_work(lambda number, failing=failing: 1 / (number != failing), 2, 2)
+
+
+def test_nothing_is_done_any_more_when_an_error_is_raised():
+    done = []
+
+    def work(number):
+        if number == 0:
+            raise ValueError("the share of this thread")
+        time.sleep(0.05)
+        done.append(number)
+
+    with pytest.raises(ValueError, match="this thread"):
+        share_work(work, 6, 2)
+    assert done == [1, 3, 5]
 
 
 def share_in_child(connection):

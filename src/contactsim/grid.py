@@ -28,7 +28,7 @@ MAX_THREADS = 1024
 PADDING = 8
 """Extra columns of a wide field: transforms are several times slower if rows start a power of two apart."""
 BLOCK, SHARED_BLOCK = 2**20, 2**18
-"""Points worked on at a time, in whole rows, to keep temporary arrays small: by one thread, and by one of several."""
+"""Points worked on at a time, in whole rows, to keep temporary arrays small: by default, and where threads share."""
 
 
 def blocks(shape: tuple[int, ...], points: int = BLOCK) -> Iterator[tuple[int, int]]:

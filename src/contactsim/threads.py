@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
-from functools import lru_cache
+from concurrent.futures import ThreadPoolExecutor, wait
+from functools import cache
 
 from threadpoolctl import threadpool_limits
 
@@ -22,7 +22,10 @@ def limit_threads(threads: int) -> threadpool_limits:
 
 
 def share_work(work: Callable[[int], object], count: int, threads: int) -> None:
-    """Call a function with the numbers from 0 to before `count`, shared among threads; this one takes part."""
+    """Call a function with the numbers from 0 to before `count`, shared among threads; this one takes part.
+
+    The function must not share work itself: it would wait for threads that wait for it.
+    """
     shares = max(min(threads, count), 1)
 
     def take(first: int) -> None:
@@ -30,13 +33,17 @@ def share_work(work: Callable[[int], object], count: int, threads: int) -> None:
         for number in range(first, count, shares):
             work(number)
 
-    others = [_pool(threads - 1, os.getpid()).submit(take, first) for first in range(1, shares)]
-    take(0)
+    submit = _pool(threads - 1, os.getpid()).submit if shares > 1 else None
+    others = [submit(take, first) for first in range(1, shares)] if submit else []
+    try:
+        take(0)
+    finally:
+        wait(others)  # nothing is written any more when this returns or raises
     for other in others:
         other.result()
 
 
-@lru_cache(maxsize=1)
+@cache
 def _pool(threads: int, process: int) -> ThreadPoolExecutor:
-    """Return the threads of a process; they are kept, as starting one takes longer than a loop may."""
+    """Return so many threads of a process; they are kept, as starting one takes longer than a loop may."""
     return ThreadPoolExecutor(threads)

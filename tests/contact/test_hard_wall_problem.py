@@ -58,6 +58,16 @@ def test_a_certificate_counts_the_approach_from_the_mean_gap_of_the_contact(body
     np.testing.assert_allclose(gap, by_height, atol=1e-12)
 
 
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+@pytest.mark.parametrize("values", [(np.inf, -np.inf), (np.nan, 1.0), (1.5e308, 1.5e308)], ids=["inf", "nan", "large"])
+def test_a_pressure_without_bounds_has_no_certificate_and_raises_nothing(values):
+    problem, _ = posed(np.random.default_rng(3).normal(size=(1024, 1024)), 0.7, HalfSpace(2.0), pressures([0.3]))
+    pressure = np.zeros((1024, 1024))
+    pressure[0, 0], pressure[-1, 0] = values  # in different blocks
+    assert not problem.certify(pressure)[0].met(1e-3)
+    problem.project(pressure)
+
+
 def test_what_overlaps_pulls_or_carries_another_load_is_no_solution():
     solved = Certificate(max_contact_gap=1e-4, penetration=1e-4, min_pressure=0.0, load_error=1e-13, approach=1.0)
     assert solved.met(1e-3)

@@ -17,6 +17,7 @@ from contactsim.paths.adaptive import Adaptive
 from contactsim.paths.continuation import Continuation
 from contactsim.surfaces.self_affine import SelfAffine
 from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid, Sphere
+from contactsim.surfaces.topography import Topography
 from support.smooth import along, walk
 
 SHAPES = {"line": (Cylinder(radius=2000.0, length=1000.0), 512), "surface": (Sphere(radius=2000.0, length=1000.0), 64)}
@@ -57,15 +58,28 @@ def test_steps_without_a_jump_are_taken_whole_and_both_jumps_are_located(accepte
     assert [fold.distance for fold in folds] == pytest.approx([fold.distance for fold in finer], rel=0.01)
 
 
-def test_the_last_valley_of_a_nearly_full_contact_closes_between_two_steps(accepted):
+def test_the_last_valley_of_a_nearly_full_contact_closes_in_a_whole_step(accepted):
     surface = SelfAffine(10240.0, 0.2, 1280.0, 80.0, rms_height=10.0, seed=1)
     scene = Scene(HalfSpace(87.8), surface, NormalCohesiveZone(3.5), along(1.5, 4.5, 1.0))
     steps = walk(scene, 1024, tolerance=1e-4)
     assert accepted == [1.5, 2.5, 3.5, 4.5]  # none is divided
-    assert not steps.jumps  # it moves by less than five steps
+    assert not steps.jumps
     finer = walk(replace(scene, path=along(1.5, 4.5, 1 / 32)), 1024, tolerance=1e-6)
-    assert finer.jumps  # told one by one in short steps
+    assert not finer.jumps  # it is smooth
     assert steps.load == pytest.approx(finer.load[::32], rel=1e-3)
+
+
+def test_the_jump_of_a_single_groove_is_located_though_it_moves_few_points():
+    place = np.arange(1024) * 4000.0 / 1024 - 2000.0
+    groove = Topography(-10.0 * np.exp(-((place / 60.0) ** 2)), spacing=4000.0 / 1024)
+    jumps = {}
+    for increment in (1.0, 1 / 8):
+        path = along(-1.0, 2.0, increment) >> along(2.0 - increment, -1.0, increment)
+        states = walk(Scene(HalfSpace(1.0), groove, NormalCohesiveZone(0.3), path), 1024, tolerance=1e-5).states
+        jumps[increment] = [jump for state in states for jump in state.jumps if jump.distance > 1.0]
+    assert [jump.step.value for jump in jumps[1.0]] == pytest.approx([0.174, 0.109], abs=0.002)  # in and out
+    assert [jump.step.value for jump in jumps[1.0]] == pytest.approx([jump.step.value for jump in jumps[1 / 8]])
+    assert all(abs(jump.step.value - jump.step_before.value) < 0.002 for jump in jumps[1.0])
 
 
 def test_long_steps_among_many_contacts_are_halved_and_not_divided_further(accepted):

@@ -14,7 +14,6 @@ to the approach afterwards. Of a free half-space it is what the pressure gives.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -184,20 +183,20 @@ class HardWallProblem:
 
     def project(self, pressure: Array, out: Array | None = None) -> Array:
         """Return a pressure cut at zero and scaled to the prescribed load, in memory of its own or in `out`."""
-        result = np.empty_like(pressure) if out is None else out
+        result = np.empty(pressure.shape, np.result_type(pressure, 0.0)) if out is None else out
         rows, given = np.atleast_2d(result, pressure)
-        totals: list[float] = []
+        totals: dict[int, float] = {}
 
         def cut(low: int, high: int) -> None:
             """Cut some rows and add up what is left."""
             np.maximum(given[low:high], 0.0, out=rows[low:high])
-            totals.append(float(rows[low:high].sum(dtype=float)))
+            totals[low] = rows[low:high].sum(dtype=float)
 
         self._work_on_blocks(cut)
         load = self.load
         if load is None:
             return result
-        mean = math.fsum(totals) / result.size
+        mean = _sum_of(totals) / result.size
         if not mean > 0:
             result[...] = load
             return result
@@ -218,19 +217,21 @@ class HardWallProblem:
         gap = self.compliance(pressure)
         self.profile.subtract_from(gap, self.compliance.grid.threads)
         gaps, pressures = np.atleast_2d(gap, pressure)
-        touching: list[tuple[float, int]] = []
+        sums: dict[int, float] = {}
+        counts: dict[int, float] = {}
 
         def add_up(low: int, high: int) -> None:
             """Add up the gap under pressure, and count its points."""
             under = gaps[low:high][pressures[low:high] > 0]
-            touching.append((float(under.sum()), under.size))
+            sums[low], counts[low] = under.sum(), under.size
 
         approach = self.approach
         if approach is None:
             self._work_on_blocks(add_up)
-            total, count = (math.fsum(numbers) for numbers in zip(*touching, strict=True))
-            approach = total / count if count else 0.0
+            count = _sum_of(counts)
+            approach = _sum_of(sums) / count if count else 0.0
         extremes: list[tuple[np.floating, ...]] = []
+        loads: dict[int, float] = {}
 
         def measure(low: int, high: int) -> None:
             """Count the gap from the approach; find its extremes, and those of the pressure and its sum."""
@@ -241,18 +242,24 @@ class HardWallProblem:
             part[contact] = 0.0  # to find the deepest overlap elsewhere
             lowest = part.min()
             part[contact] = under
-            extremes.append((np.abs(under, out=under).max(initial=0.0), lowest, carried.min(), carried.sum()))
+            loads[low] = carried.sum()
+            extremes.append((np.abs(under, out=under).max(initial=0.0), lowest, carried.min()))
 
         self._work_on_blocks(measure)
-        widest, lowest, least, sums = np.array(extremes).T
+        widest, lowest, least = np.array(extremes).T
         certificate = Certificate(
             max_contact_gap=float(widest.max()),
             penetration=0.0 - min(float(lowest.min()), 0.0),
             min_pressure=float(least.min()),
-            load_error=0.0 if not self.load else abs(math.fsum(sums) / pressure.size / self.load - 1),
+            load_error=0.0 if not self.load else abs(_sum_of(loads) / pressure.size / self.load - 1),
             approach=approach,
         )
         return certificate, gap
+
+
+def _sum_of(parts: dict[int, float]) -> float:
+    """Return the sum of numbers in the order of their keys, as threads may have found them in any order."""
+    return float(np.sum([parts[key] for key in sorted(parts)]))
 
 
 @dataclass(frozen=True)

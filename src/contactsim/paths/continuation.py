@@ -2,7 +2,7 @@
 
 The branch is that of a slow experiment: the equilibrium that the overdamped flow reaches from the last stable state.
 Where continuation fails, the flow leads on, and the step is divided until it follows the branch or shows a jump. The
-jump of one contact or valley among many is not located.
+jump of one contact among many is not located.
 """
 
 from __future__ import annotations
@@ -204,7 +204,7 @@ class Continuation:
         """Advance to a step; return the state, the jumps on the way, and the iterations.
 
         Where continuation fails, the flow from the current state leads on. The step is divided, to find where the jump
-        begins, unless it is that of one contact or valley among many. A motion without rest is tried twice.
+        begins, with the exceptions of `divide_step`. A motion that does not come to rest is tried twice.
         """
         goals, divides, division, iterations, restless = [step.value], self._divides, Division.NONE, 0, 0
         jumps: list[Jump] = []

@@ -24,7 +24,7 @@ class Requested:
     ----------
     fold_width
         Largest distance (nm) that the load moves the surface between both sides of a jump: the step is divided. On
-        approach the jump of one contact or valley among many stays between two steps, no longer than the laws' length.
+        approach the jump of one contact among many stays between two steps, no longer than the laws' length.
 
     Raises
     ------

@@ -60,9 +60,10 @@ PATCH_COUNTERS = {1: _count_runs, 2: _count_areas}
 def divide_step(jumps: JumpCriterion, before: Side, after: Side) -> Division:
     """Return how a step that continuation fails to take is divided.
 
-    A step that is, with its motion, shorter than the smallest jump holds none. Else only steps of the approach are
-    taken whole: where the energy balances, and where the jump is that of one contact or valley among many. Beside a
-    hard wall, steps of a load are taken whole: how far they move a surface that the wall pushes is not known.
+    A step that is, with its motion, shorter than the smallest jump holds none. Else a jump is located, but for steps of
+    the approach where the energy balances, or where the jump is that of one contact among many or of few points of a
+    large contact. Beside a hard wall, steps of a load are taken whole: how far they move a surface that the wall pushes
+    is not known.
 
     Parameters
     ----------
@@ -81,7 +82,8 @@ def divide_step(jumps: JumpCriterion, before: Side, after: Side) -> Division:
     increment = abs(step.value - start.value)
     if is_balanced(jumps, before, after):
         return Division.NONE
-    if not _is_among_many(problem, first, state, increment):
+    may_count = jumps.is_jump(step, increment, state.largest_change)
+    if not _is_among_many(problem, first, state, increment, may_count):
         return Division.LOCATE
     is_short = increment <= problem.interaction_range * (1 + ROUNDING)
     return Division.NONE if is_short else Division.SHORTEN
@@ -111,13 +113,20 @@ def is_balanced(jumps: JumpCriterion, before: Side, after: Side) -> bool:
     return abs(released) <= BALANCED_ENERGY * change * increment
 
 
-def _is_among_many(problem: CohesiveProblem, before: Equilibrium, after: Equilibrium, increment: float) -> bool:
-    """Return True if a step of the approach holds no jump, or that of one contact or valley among many."""
+def _is_among_many(
+    problem: CohesiveProblem, before: Equilibrium, after: Equilibrium, increment: float, may_count: bool
+) -> bool:
+    """Return True if a step of the approach holds no jump, or that of one contact among many, or of few points.
+
+    may_count: the motion is long enough to count as a jump. That of few points is then located, as it may be smooth.
+    """
     ratio = CALM_RATIO if problem.wall is None else 1 + CALM_RATIO
     if after.largest_change <= ratio * increment:
         return True
     loaded = [_loaded_points(problem, state) for state in (before, after)]
-    if _moves_few_points(problem, before, after, increment, max(int(points.sum()) for points in loaded)):
+    if not may_count and _moves_few_points(
+        problem, before, after, increment, max(int(points.sum()) for points in loaded)
+    ):
         return True
     shape = problem.heights.shape
     patches = max(PATCH_COUNTERS[len(shape)](points.reshape(shape)) for points in loaded)

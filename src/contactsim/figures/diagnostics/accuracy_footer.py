@@ -47,7 +47,8 @@ def footer_text(table: pd.DataFrame, plan: Mapping[str, Any]) -> str:
     ensembles = table[table.knob == "members"]
     parts += [f"members varied at {points} points of the study" for points in ensembles.points.unique()]
     quantity = settings["quantities"][0]
-    parts += [*_undrawn_texts(table, quantity), *_margin_texts(table, quantity), *_ringless_texts(table, plan)]
+    drawn = table[table.knob.isin(drawn_knobs(table, quantity))]
+    parts += [*_undrawn_texts(table, quantity), *_margin_texts(drawn, quantity), *_ringless_texts(table, plan)]
     return " · ".join([*parts, *kept_texts(plan["kept"])])
 
 
@@ -88,8 +89,10 @@ def _undrawn_texts(table: pd.DataFrame, quantity: str) -> list[str]:
     texts = []
     for knob in varied_knobs(table):
         if knob not in drawn_knobs(table, quantity):
-            largest = table[quantity][table.own & (table.knob == knob)].max()
-            texts.append(f"{KNOB_NAMES[knob]} has no panel: its error is at most {largest:.1g}")
+            errors = table[quantity][table.own & (table.knob == knob)]
+            known = errors[np.isfinite(errors)]
+            text = f"its error is at most {known.max():.1g}" if len(known) else "its error is not known"
+            texts.append(f"{KNOB_NAMES[knob]} has no panel: {text}")
     return texts
 
 
