@@ -17,7 +17,7 @@ KNOB_NAMES = {"points": "grid points", "tangential_cutoff": "tangential cutoff"}
 }
 
 FEWEST = 2
-"""Fewest settings with an error that make a panel."""
+"""Fewest different errors that make a panel."""
 
 
 def varied_knobs(table: pd.DataFrame) -> list[str]:
@@ -26,9 +26,10 @@ def varied_knobs(table: pd.DataFrame) -> list[str]:
 
 
 def drawn_knobs(table: pd.DataFrame, quantity: str) -> list[str]:
-    """Return the knobs that have a panel: the grid, and those with errors of a quantity at several settings."""
-    with_error = table[table.own & (table[quantity] > ROUNDING)]
-    return [knob for knob in varied_knobs(table) if knob == "points" or (with_error.knob == knob).sum() >= FEWEST]
+    """Return the knobs that have a panel: the grid, and those with several different errors of a quantity."""
+    errors = table[table.own & (table[quantity] > ROUNDING)].set_index("knob")[quantity]
+    different = np.log10(errors).round(1).groupby("knob").nunique()
+    return [knob for knob in varied_knobs(table) if knob == "points" or different.get(knob, 0) >= FEWEST]
 
 
 def own_solver(table: pd.DataFrame) -> str:
