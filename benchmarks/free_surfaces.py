@@ -16,6 +16,7 @@ from functools import partial
 from importlib.util import find_spec
 
 import numpy as np
+from peers import RUNGS, pressed_by_contact_mechanics
 from tabulated import Benchmark
 
 import contactsim as cs
@@ -48,27 +49,6 @@ def pressed_by_tamaas(problem: HardWallProblem, tolerance: float) -> Array:
     return np.array(model.traction).reshape(shape)
 
 
-def pressed_by_contact_mechanics(problem: HardWallProblem, tolerance: float) -> Array:
-    """Pressure (ny, nx) by conjugate gradients of Polonsky and Keer, on a doubled grid."""
-    from ContactMechanics import FreeFFTElasticHalfSpace
-    from ContactMechanics.Optimization import constrained_conjugate_gradients
-    from SurfaceTopography import Topography
-
-    heights = problem.heights
-    sizes = tuple(float(size) for size in heights.shape)
-    substrate = FreeFFTElasticHalfSpace(heights.shape, 1.0, sizes)
-    found = constrained_conjugate_gradients(
-        substrate,
-        Topography(heights.copy(), sizes),
-        external_force=load_of(problem),
-        pentol=tolerance,
-        forcetol=tolerance,
-        thermotol=tolerance,
-        maxiter=20000,
-    )
-    return np.array(found.jac)[: heights.shape[0], : heights.shape[1]]
-
-
 def pressed_by_aspher(problem: HardWallProblem, tolerance: float, backend: str) -> Array:
     """Pressure (ny, nx) by nested conjugate gradients of Polonsky and Keer."""
     import aspher
@@ -91,7 +71,7 @@ def pressed_by_aspher(problem: HardWallProblem, tolerance: float, backend: str) 
 
 PEERS: dict[str, tuple[str, Callable[[HardWallProblem, float], Array]]] = {
     "tamaas": ("tamaas", pressed_by_tamaas),
-    "ContactMechanics": ("ContactMechanics", pressed_by_contact_mechanics),
+    "ContactMechanics": ("ContactMechanics", partial(pressed_by_contact_mechanics, is_free=True)),
     "aspher fft": ("aspher", partial(pressed_by_aspher, backend="fft")),
     "aspher h2": ("aspher", partial(pressed_by_aspher, backend="h2")),
 }
@@ -131,8 +111,7 @@ def compare(case: dict, quick: bool) -> dict:
     heights, step = subject.heights(case["points"]), subject.path.steps[0]
     problem = pose_hard_wall(subject, step, heights, TOLERANCE, 1)[0]
     press = PEERS[case["peer"]][1]
-    for power in range(8, 29):
-        asked = 10 ** (-power / 2)
+    for asked in RUNGS:
         _, pressure, error = seconds_of(problem, press, asked)
         if error <= TOLERANCE:
             break

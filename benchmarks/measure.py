@@ -15,7 +15,8 @@ from multiprocessing import get_context
 
 import numpy as np
 
-from contactsim.contact.hard_wall import Certificate, HardWallProblem, Scale
+from contactsim.contact.certificate import Certificate
+from contactsim.contact.hard_wall import HardWallProblem, Scale
 from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.contact.scene import Scene
 from contactsim.grid import Array, Grid, TransformCounter

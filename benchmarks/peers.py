@@ -1,8 +1,8 @@
-"""aspher's nested solver on a problem of ours: another code to measure against, used by no other part of contactsim.
+"""Other codes on a problem of ours, to measure against, used by no other part of contactsim.
 
-Conjugate gradients of Polonsky and Keer in C++, preconditioned by |q| with a transform and started from a cascade of
+aspher: conjugate gradients of Polonsky and Keer in C++, preconditioned by |q| with a transform and started from a cascade of
 grids (V. A. Yastrebov, aspher 0.1.3, on PyPI). Its compliance on a periodic half-space is ours, its tolerance part of
-the range of heights.
+the range of heights. ContactMechanics: the same method on a single grid.
 """
 
 from __future__ import annotations
@@ -10,6 +10,8 @@ from __future__ import annotations
 import itertools
 import time
 from dataclasses import dataclass
+
+import numpy as np
 
 from contactsim.contact.hard_wall import HardWallProblem
 from contactsim.grid import Array
@@ -64,6 +66,23 @@ def pressed(problem: HardWallProblem, settings: Settings) -> tuple[Array, float]
         side = int(stage["name"].partition(":")[2])
         spent += 2 * (stage["matvec_count"] + stage["iterations"]) * (side / points) ** 2
     return result.pressure, spent
+
+
+def pressed_by_contact_mechanics(problem: HardWallProblem, tolerance: float, *, is_free: bool) -> Array:
+    """Pressure by ContactMechanics; a free half-space has a doubled grid, a periodic one that of the heights."""
+    from ContactMechanics import FreeFFTElasticHalfSpace, PeriodicFFTElasticHalfSpace
+    from ContactMechanics.Optimization import constrained_conjugate_gradients
+    from SurfaceTopography import Topography, UniformLineScan
+
+    heights, sizes = problem.heights.copy(), tuple(float(size) for size in problem.shape)
+    substrate = FreeFFTElasticHalfSpace if is_free else PeriodicFFTElasticHalfSpace
+    topography = UniformLineScan(heights, *sizes) if len(sizes) == 1 else Topography(heights, sizes)
+    limits = dict.fromkeys(("pentol", "forcetol", "thermotol"), tolerance)
+    load = problem.prescribed_load * problem.size
+    found = constrained_conjugate_gradients(
+        substrate(problem.shape, 1.0, sizes), topography, external_force=load, maxiter=20000, **limits
+    )
+    return np.array(found.jac)[tuple(map(slice, problem.shape))]
 
 
 def quickest(problem: HardWallProblem, rung: int) -> tuple[Settings, int]:

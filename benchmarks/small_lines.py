@@ -21,11 +21,11 @@ from statistics import median
 
 import measure
 import numpy as np
+from peers import RUNGS, pressed_by_contact_mechanics
 from records import on_one_thread
 from report import insert, markdown
 
 from contactsim import HalfSpace, HardWall, Scene, SelfAffine, pressures
-from contactsim.contact.hard_wall import HardWallProblem
 from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.grid import Array
 from contactsim.solvers.registry import is_installed
@@ -36,8 +36,6 @@ PRESSURES = (1e-3, 1e-2, 1e-1)
 TOLERANCE, MEMBERS, ROUNDS, GRADIENT = 1e-6, 3, 9, 0.1
 BEGIN, END = "<!-- small lines: written by small_lines.py -->", "<!-- end of small lines -->"
 DEFAULT, OTHERS, PEER = "active_set", ("polonsky_keer", "tamaas"), "ContactMechanics"
-RUNGS = tuple(10 ** (-power / 2) for power in range(8, 25))
-"""Tolerances tried for the peer: 1e-4 to 1e-12, two a decade."""
 
 logger = logging.getLogger("small_lines")
 
@@ -49,29 +47,11 @@ def timed(scene: Scene, heights: Array, solver: str) -> dict:
     return measure.measure_load(problem, scale, solver) | {"seconds": time.thread_time() - begin}
 
 
-def pressed_by_peer(problem: HardWallProblem, tolerance: float) -> Array:
-    """Return the pressure (n,) by ContactMechanics' conjugate gradients of Polonsky and Keer."""
-    from ContactMechanics import PeriodicFFTElasticHalfSpace
-    from ContactMechanics.Optimization import constrained_conjugate_gradients
-    from SurfaceTopography import UniformLineScan
-
-    points, length = problem.size, float(problem.size)
-    limits = dict.fromkeys(("pentol", "forcetol", "thermotol"), tolerance)
-    found = constrained_conjugate_gradients(
-        PeriodicFFTElasticHalfSpace((points,), 1.0, (length,)),
-        UniformLineScan(problem.heights.copy(), length),
-        external_force=problem.prescribed_load * points,
-        maxiter=20000,
-        **limits,
-    )
-    return np.array(found.jac)
-
-
 def timed_peer(scene: Scene, heights: Array, tolerance: float) -> dict:
     """Return the CPU seconds of the peer at a tolerance, and whether our certificate accepts its pressure."""
     begin = time.thread_time()
     problem, _ = pose_hard_wall(scene, scene.path.steps[0], heights, TOLERANCE, 1)
-    pressure = pressed_by_peer(problem, tolerance)
+    pressure = pressed_by_contact_mechanics(problem, tolerance, is_free=False)
     spent = time.thread_time() - begin
     accepted = np.isfinite(pressure).all() and problem.certify(problem.project(pressure))[0].met(TOLERANCE)
     return {"status": "CONVERGED" if accepted else "REFUSED", "seconds": spent}
@@ -79,12 +59,10 @@ def timed_peer(scene: Scene, heights: Array, tolerance: float) -> dict:
 
 def ratio(scene: Scene, heights: Array, solver: str) -> float:
     """Return the CPU time of a solver over that of the default one; NaN if it finds no solution."""
+    measure_other = partial(timed, scene, heights, solver)
     if solver == PEER:
         accepted = (rung for rung in RUNGS if timed_peer(scene, heights, rung)["status"] == "CONVERGED")
-        tolerance = next(accepted, RUNGS[-1])
-        measure_other = partial(timed_peer, scene, heights, tolerance)
-    else:
-        measure_other = partial(timed, scene, heights, solver)
+        measure_other = partial(timed_peer, scene, heights, next(accepted, RUNGS[-1]))
     pairs = []
     for _ in range(ROUNDS):
         own, other = timed(scene, heights, DEFAULT), measure_other()

@@ -2,9 +2,9 @@
 
     python benchmarks/two_threads.py    # six minutes, on a machine with two idle cores
 
-The surfaces are those of surface_solvers.py, one load to 1e-6 grid steps. Solutions take turns in one process, and the
-certificate is part of them; the number is the median of three rounds. A row that is in the CSV is not measured
-again. OMP_NUM_THREADS must not be 1, or transforms have one thread only.
+The surfaces are those of `rough_surface` in config/ch3.yaml, one load to 1e-6 grid steps. Solutions take turns in one
+process, and the certificate is part of them; the number is the median of three rounds. A row that is in the CSV is not
+measured again. OMP_NUM_THREADS must not be 1, or transforms have one thread only.
 """
 
 from __future__ import annotations
@@ -12,17 +12,18 @@ from __future__ import annotations
 import itertools
 import logging
 import time
+from functools import partial
 from pathlib import Path
 from statistics import median
 
+from measure import pose_case
 from records import Table
 from report import insert, markdown
 
-from contactsim import HalfSpace, HardWall, Scene, SelfAffine, pressures
 from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.solvers.base import solve
 from contactsim.solvers.registry import make_solver
-from contactsim.surfaces.self_affine import realisation_seed
+from contactsim.study.plan import Plan
 
 FOLDER = Path(__file__).resolve().parent
 SIZES, HURST_EXPONENTS, PRESSURES = (2048, 4096), (0.2, 0.8), (1e-3, 1e-2, 1e-1)
@@ -31,20 +32,9 @@ CASE, FOUND = ("points", "hurst_exponent", "reduced_pressure"), ("one", "two", "
 BEGIN, END = "<!-- two threads: written by two_threads.py -->", "<!-- end of two threads -->"
 
 
-def measure(case: dict) -> dict:
+def measure(plan: Plan, case: dict) -> dict:
     """Return the least seconds on one thread and on two, and the median ratio."""
-    points = case["points"]
-    surface = SelfAffine(
-        float(points),
-        case["hurst_exponent"],
-        long_cutoff=points / 4,
-        short_cutoff=8.0,
-        rms_gradient=1.0,
-        seed=realisation_seed(1, case["hurst_exponent"]),
-        dimensions=2,
-    )
-    scene = Scene(HalfSpace(1.0), surface, HardWall(), pressures([case["reduced_pressure"]]))
-    heights = scene.heights(points)
+    scene, heights = pose_case(plan, case | {"member": 0}, [case["reduced_pressure"]], "rough_surface")
 
     def seconds(threads: int) -> float:
         """Return the seconds of one solution."""
@@ -62,10 +52,11 @@ def measure(case: dict) -> dict:
 def main() -> None:
     """Measure all cases and put their table into the README."""
     logging.basicConfig(level=logging.INFO, format="%(message)s")
+    plan = Plan.read(FOLDER.parent / "config", "standard")
     table = Table(FOLDER / "two_threads.csv", CASE, FOUND)
     rows = []
     for values in itertools.product(SIZES, HURST_EXPONENTS, PRESSURES):
-        found = table.row(dict(zip(CASE, values, strict=True)), measure)
+        found = table.row(dict(zip(CASE, values, strict=True)), partial(measure, plan))
         numbers = [f"{float(found[name]):.3g}" for name in FOUND]
         rows.append([f"{values[0]}²", *(f"{value:g}" for value in values[1:]), *numbers])
     header = ["points", "H", "p*", "one thread (s)", "two threads (s)", "one ÷ two"]

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contactsim.errors import InputError
-from contactsim.threads import share_work
+from contactsim.threads import T, share_work
 
 Array = NDArray[Any]
 """An array of any type and shape; docstrings say which."""
@@ -38,10 +38,10 @@ def blocks(shape: tuple[int, ...], points: int = BLOCK) -> Iterator[tuple[int, i
     return ((low, min(low + size, rows)) for low in range(0, rows, size))
 
 
-def work_on_blocks(work: Callable[[int, int], object], shape: tuple[int, ...], threads: int) -> None:
-    """Call a function with the first row of each block and the row after its last, on several threads."""
+def map_blocks(work: Callable[[int, int], T], shape: tuple[int, ...], threads: int) -> list[T]:
+    """Return the results of a function of the first row of each block and the row after its last, on some threads."""
     places = list(blocks(shape, SHARED_BLOCK))
-    share_work(lambda number: work(*places[number]), len(places), threads)
+    return share_work(lambda number: work(*places[number]), len(places), threads)
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,11 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, wait
 from functools import cache
+from typing import TypeVar
 
 from threadpoolctl import threadpool_limits
+
+T = TypeVar("T")
 
 
 def limit_threads(threads: int) -> threadpool_limits:
@@ -21,17 +24,17 @@ def limit_threads(threads: int) -> threadpool_limits:
     return threadpool_limits(threads, "blas")
 
 
-def share_work(work: Callable[[int], object], count: int, threads: int) -> None:
-    """Call a function with the numbers from 0 to before `count`, shared among threads; this one takes part.
+def share_work(work: Callable[[int], T], count: int, threads: int) -> list[T]:
+    """Return the results of a function of 0 to count - 1, computed by several threads, of which this is one.
 
     The function must not share work itself: it would wait for threads that wait for it.
     """
-    shares = max(min(threads, count), 1)
+    shares, results = max(min(threads, count), 1), {}
 
     def take(first: int) -> None:
         """Do the share of one thread."""
         for number in range(first, count, shares):
-            work(number)
+            results[number] = work(number)
 
     submit = _pool(threads - 1, os.getpid()).submit if shares > 1 else None
     others = [submit(take, first) for first in range(1, shares)] if submit else []
@@ -41,6 +44,7 @@ def share_work(work: Callable[[int], object], count: int, threads: int) -> None:
         wait(others)  # nothing is written any more when this returns or raises
     for other in others:
         other.result()
+    return [results[number] for number in range(count)]
 
 
 @cache

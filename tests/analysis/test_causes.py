@@ -11,7 +11,8 @@ import pytest
 from contactsim.analysis.candidate_shares import FILE
 from contactsim.analysis.causes import Cause, cause_text, claims_without_cause
 from contactsim.analysis.cell_rules import CellRule, admitted_cells, cell_texts, separate_cells
-from contactsim.analysis.claims import Studies, cause_numbers
+from contactsim.analysis.claims import cause_numbers
+from contactsim.analysis.more_members import Studies
 from contactsim.analysis.reductions import ORDERS
 from contactsim.analysis.verdict import DEPENDS, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED, band
 from contactsim.errors import InputError

@@ -11,10 +11,10 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.analysis.claim_data import data_text
-from contactsim.analysis.claims import Studies, judge_cases
+from contactsim.analysis.claims import judge_cases
 from contactsim.analysis.comparison import Comparison
 from contactsim.analysis.deciding import Effort, deciding_text
-from contactsim.analysis.more_members import with_more_members
+from contactsim.analysis.more_members import Studies, with_more_members
 from contactsim.analysis.uncertainty import estimate, student_factor
 from contactsim.analysis.unknown_places import unknown_places
 from contactsim.errors import InputError

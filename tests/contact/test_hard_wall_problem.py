@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from contactsim.contact.hard_wall import Certificate
+from contactsim.contact.certificate import Certificate
 from contactsim.contact.loading import approaches, pressures
 from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene

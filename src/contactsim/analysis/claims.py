@@ -18,11 +18,11 @@ from contactsim.analysis.cases import join_cases
 from contactsim.analysis.causes import FAILING, Cause, cause_text
 from contactsim.analysis.cell_rules import cell_texts
 from contactsim.analysis.claim_data import data_text
-from contactsim.analysis.comparison import SECOND_STUDY, Comparison, studies_of
+from contactsim.analysis.comparison import SECOND_STUDY, Comparison
 from contactsim.analysis.conditions import ConditionSearch
 from contactsim.analysis.extremes import NO_EXTREME, describe_extreme
 from contactsim.analysis.formulas import FORMULAS
-from contactsim.analysis.more_members import TRANSFERRED_FROM, with_more_members
+from contactsim.analysis.more_members import TRANSFERRED_FROM, Studies
 from contactsim.analysis.quantities import SECOND_ESTIMATORS
 from contactsim.analysis.reductions import ORDERS
 from contactsim.analysis.uncertainty import NAN, Estimate, estimate, is_on_thesis_grid
@@ -162,25 +162,6 @@ def _condition_entries(words: str, number: Estimate, share: float) -> dict[str, 
     """Return the entries of a row that describe a condition."""
     numbers = {f"condition_{name}": value for name, value in vars(number).items()}
     return {"condition": words, "condition_share": share} | numbers
-
-
-class Studies:
-    """Datasets of studies by name, and those with the members of others, which are made once."""
-
-    def __init__(self, data: Mapping[str, xr.Dataset]) -> None:
-        self._data = data
-        self._with_more: dict[tuple[str, ...], xr.Dataset] = {}
-
-    def of(self, claim: Mapping) -> list[xr.Dataset]:
-        """Return the datasets of the studies of a claim, with the members that it takes from others."""
-        return [self._get(name, *(claim["more_members"] or ())) for name in studies_of(claim)]
-
-    def _get(self, *names: str) -> xr.Dataset:
-        """Return the dataset of the first study, with the members of the others."""
-        if names not in self._with_more:
-            first, *others = (self._data[name] for name in names)
-            self._with_more[names] = with_more_members(first, others)
-        return self._with_more[names]
 
 
 def judge_choices(claim: Mapping, studies: Studies) -> list[Choice]:

@@ -11,12 +11,13 @@ Errors are widened, because n is small. A transferred number is not the number o
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
 
 from contactsim import dataset
+from contactsim.analysis.comparison import studies_of
 from contactsim.analysis.ensemble import WIDENING, converged, waves_name
 from contactsim.analysis.uncertainty import student_factor
 from contactsim.observables.dataset_forms import AVERAGED
@@ -28,6 +29,25 @@ OF_MEANS = ("_mean", "_standard_error")
 """Ends of the names of means over the members of a study, which are not those of the transferred numbers."""
 TRANSFERRED_FROM = "transferred_from"
 """Attribute of transferred numbers: name, members and points of each study that they come from, the finest first."""
+
+
+class Studies:
+    """Datasets of studies by name, and those with the members of others, which are made once."""
+
+    def __init__(self, data: Mapping[str, xr.Dataset]) -> None:
+        self._data = data
+        self._with_more: dict[tuple[str, ...], xr.Dataset] = {}
+
+    def of(self, claim: Mapping) -> list[xr.Dataset]:
+        """Return the datasets of the studies of a claim, with the members that it takes from others."""
+        return [self._get(name, *(claim["more_members"] or ())) for name in studies_of(claim)]
+
+    def _get(self, *names: str) -> xr.Dataset:
+        """Return the dataset of the first study, with the members of the others."""
+        if names not in self._with_more:
+            first, *others = (self._data[name] for name in names)
+            self._with_more[names] = with_more_members(first, others)
+        return self._with_more[names]
 
 
 def with_more_members(fine: xr.Dataset, others: Sequence[xr.Dataset]) -> xr.Dataset:

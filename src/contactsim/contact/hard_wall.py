@@ -14,16 +14,16 @@ to the approach afterwards. Of a free half-space it is what the pressure gives.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from contactsim.contact.certificate import Certificate, certify_gap
 from contactsim.elasticity.fourier_operator import Compliance
 from contactsim.errors import InputError
-from contactsim.grid import Array, TransformCounter, work_on_blocks
+from contactsim.grid import Array, TransformCounter, map_blocks
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ class Profile:
         values /= self.step
         return values
 
-    def subtract_from(self, field: Array, threads: int = 1) -> None:
+    def subtract_from(self, field: Array, threads: int) -> None:
         """Subtract the heights from a field, in place."""
         if field.ndim == 1:
             field -= self[:]
@@ -82,7 +82,7 @@ class Profile:
             """Subtract some rows."""
             field[low:high] -= self[low:high]
 
-        work_on_blocks(subtract, field.shape, threads)
+        map_blocks(subtract, field.shape, threads)
 
 
 @dataclass(frozen=True)
@@ -185,108 +185,34 @@ class HardWallProblem:
         """Return a pressure cut at zero and scaled to the prescribed load, in memory of its own or in `out`."""
         result = np.empty(pressure.shape, np.result_type(pressure, 0.0)) if out is None else out
         rows, given = np.atleast_2d(result, pressure)
-        totals: dict[int, float] = {}
 
-        def cut(low: int, high: int) -> None:
-            """Cut some rows and add up what is left."""
+        def cut(low: int, high: int) -> float:
+            """Cut some rows and return the sum of what is left."""
             np.maximum(given[low:high], 0.0, out=rows[low:high])
-            totals[low] = rows[low:high].sum(dtype=float)
+            return float(rows[low:high].sum(dtype=float))
 
-        self._work_on_blocks(cut)
-        load = self.load
-        if load is None:
+        mean = float(np.sum(map_blocks(cut, self.shape, self._threads))) / self.size
+        if self.load is None:
             return result
-        mean = _sum_of(totals) / result.size
         if not mean > 0:
-            result[...] = load
+            result[...] = self.load
             return result
+        factor = self.load / mean
 
         def scale(low: int, high: int) -> None:
             """Scale some rows."""
-            rows[low:high] *= load / mean
+            rows[low:high] *= factor
 
-        self._work_on_blocks(scale)
+        map_blocks(scale, self.shape, self._threads)
         return result
 
-    def _work_on_blocks(self, work: Callable[[int, int], object]) -> None:
-        """Call a function for all blocks of rows of a field; a line is one row."""
-        work_on_blocks(work, self.shape, self.compliance.grid.threads)
+    @property
+    def _threads(self) -> int:
+        """Threads that share the work on a field."""
+        return self.compliance.grid.threads
 
     def certify(self, pressure: Array) -> tuple[Certificate, Array]:
         """Return the errors of a pressure, and its gap in grid steps, both computed from the pressure alone."""
         gap = self.compliance(pressure)
-        self.profile.subtract_from(gap, self.compliance.grid.threads)
-        gaps, pressures = np.atleast_2d(gap, pressure)
-        sums: dict[int, float] = {}
-        counts: dict[int, float] = {}
-
-        def add_up(low: int, high: int) -> None:
-            """Add up the gap under pressure, and count its points."""
-            under = gaps[low:high][pressures[low:high] > 0]
-            sums[low], counts[low] = under.sum(), under.size
-
-        approach = self.approach
-        if approach is None:
-            self._work_on_blocks(add_up)
-            count = _sum_of(counts)
-            approach = _sum_of(sums) / count if count else 0.0
-        extremes: list[tuple[np.floating, ...]] = []
-        loads: dict[int, float] = {}
-
-        def measure(low: int, high: int) -> None:
-            """Count the gap from the approach; find its extremes, and those of the pressure and its sum."""
-            part, carried = gaps[low:high], pressures[low:high]
-            part -= approach
-            contact = carried > 0
-            under = part[contact]
-            part[contact] = 0.0  # to find the deepest overlap elsewhere
-            lowest = part.min()
-            part[contact] = under
-            loads[low] = carried.sum()
-            extremes.append((np.abs(under, out=under).max(initial=0.0), lowest, carried.min()))
-
-        self._work_on_blocks(measure)
-        widest, lowest, least = np.array(extremes).T
-        certificate = Certificate(
-            max_contact_gap=float(widest.max()),
-            penetration=0.0 - min(float(lowest.min()), 0.0),
-            min_pressure=float(least.min()),
-            load_error=0.0 if not self.load else abs(_sum_of(loads) / pressure.size / self.load - 1),
-            approach=approach,
-        )
-        return certificate, gap
-
-
-def _sum_of(parts: dict[int, float]) -> float:
-    """Return the sum of numbers in the order of their keys, as threads may have found them in any order."""
-    return float(np.sum([parts[key] for key in sorted(parts)]))
-
-
-@dataclass(frozen=True)
-class Certificate:
-    """Errors of a pressure; lengths in grid steps.
-
-    Parameters
-    ----------
-    max_contact_gap
-        Largest |gap| in contact.
-    penetration
-        Largest overlap elsewhere.
-    min_pressure
-        Smallest pressure in E*·step/spacing; never negative in a solution.
-    load_error
-        Relative error of the load.
-    approach
-        Approach that belongs to the pressure.
-    """
-
-    max_contact_gap: float
-    penetration: float
-    min_pressure: float
-    load_error: float
-    approach: float
-
-    def met(self, tolerance: float) -> bool:
-        """Return whether this is a solution to within `tolerance` grid steps; NaN is none."""
-        is_close = self.max_contact_gap <= tolerance and self.penetration <= tolerance
-        return is_close and self.min_pressure >= 0 and self.load_error <= 1e-12
+        self.profile.subtract_from(gap, self._threads)
+        return certify_gap(gap, pressure, self.approach, self.load, self._threads), gap

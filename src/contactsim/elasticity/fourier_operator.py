@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import ducc0
 import numpy as np
 
-from contactsim.grid import Array, Grid, TransformCounter, blocks, work_on_blocks
+from contactsim.grid import Array, Grid, TransformCounter, blocks, map_blocks
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class RadialSymbol:
             """Compute the values at some rows."""
             values[low:high] = self.rows(low, high)
 
-        work_on_blocks(fill, (half, self.grid.shape[1]), self.grid.threads)
+        map_blocks(fill, (half, self.grid.shape[1]), self.grid.threads)
         return [(slice(half), values), (slice(half, None), values[count - half : 0 : -1])]
 
     def scaled(self, grid: Grid, factor: float) -> RadialSymbol:
@@ -183,7 +183,7 @@ class FourierOperator:
         if self._held:
             self._multiply(half, self._held)
         else:
-            work_on_blocks(partial(self._multiply_rows, half), self.grid.shape, self.grid.threads)
+            map_blocks(partial(self._multiply_rows, half), self.grid.shape, self.grid.threads)
         ducc0.fft.c2c(half, forward=False, out=half, **across)
         for low, high in rows:
             result[low:high] = ducc0.fft.c2r(half[low:high], lastsize=columns, forward=False, **along)
@@ -196,10 +196,9 @@ class FourierOperator:
     def _multiply(self, half: Array, symbol: list[tuple[slice, Array]]) -> None:
         """Multiply coefficients by a symbol that is held by slices of rows, in place."""
         for rows, values in symbol:
-            part = half[rows]
+            map_blocks(partial(_multiply_block, half[rows], values), values.shape, self.grid.threads)
 
-            def multiply(low: int, high: int, part: Array = part, values: Array = values) -> None:
-                """Multiply some rows."""
-                part[low:high] *= values[low:high]
 
-            work_on_blocks(multiply, (part.shape[0], self.grid.shape[1]), self.grid.threads)
+def _multiply_block(field: Array, factor: Array, low: int, high: int) -> None:
+    """Multiply a field by a factor at some rows, in place."""
+    field[low:high] *= factor[low:high]

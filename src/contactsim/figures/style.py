@@ -47,8 +47,8 @@ ZERO: dict[str, Any] = {"color": EXACT, "lw": 0.5, "label": "_zero"}
 """Line at zero. A label that begins with an underscore is a name outside the legend."""
 BARS: dict[str, Any] = {"elinewidth": 0.8, "capsize": 1.5}
 """Error bars."""
-FAINT, PALE = 0.35, 0.55
-"""Opacity of a curve beside the main ones; share of white in a pale colour."""
+FAINT = 0.35
+"""Opacity of a curve beside the main ones."""
 PLACE_TOLERANCE = 1e-6
 """Largest distance between a coordinate that a figure asks for and that in the dataset, in the coordinate's unit."""
 
@@ -65,6 +65,8 @@ HUES = {
     "thickness": ("YlOrBr", (500.0, 5000.0)),
 }
 """Hues of variables, so that a colour means the same in all figures of a chapter, and their usual values."""
+HUE_RANGE = 0.5, 0.92
+"""Part of a hue that is used: below it is too pale, and above it several hues end in one dark purple."""
 SOLVER_NAMES = {
     "active_set": "active set",
     "conjugate_gradients": "conjugate gradients",
@@ -112,14 +114,8 @@ def variable_colours(variable: str, values: ArrayLike) -> dict[float, str]:
     """Return a colour for each value of a variable that has a hue of its own, from light to dark in their order."""
     hue, usual = HUES[variable]
     keys = sorted({*usual, *map(float, np.asarray(values).ravel())})
-    colours = mpl.colormaps[hue](np.linspace(0.5, 0.92, len(keys)))
+    colours = mpl.colormaps[hue](np.linspace(*HUE_RANGE, len(keys)))
     return dict(zip(keys, map(mpl.colors.to_hex, colours), strict=True))
-
-
-def paler(colour: str) -> str:
-    """Return a colour mixed with white."""
-    red, green, blue = (PALE + (1 - PALE) * part for part in mpl.colors.to_rgb(colour))
-    return mpl.colors.to_hex((red, green, blue))
 
 
 def hurst_handles(values: Iterable[float]) -> list[Line2D]:

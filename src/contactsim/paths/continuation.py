@@ -246,7 +246,5 @@ class Continuation:
     def _divisible_increment(self, step: LoadStep) -> float:
         """Return the change of the load to a step, with its sign, where a jump may hide in it; else zero."""
         parameter = self.parameter(step)
-        if parameter is None:
-            return 0.0
-        increment = step.value - parameter
+        increment = 0.0 if parameter is None else step.value - parameter
         return increment if self.jumps.may_hide_in(step, abs(increment)) else 0.0

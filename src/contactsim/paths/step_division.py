@@ -79,11 +79,14 @@ def divide_step(jumps: JumpCriterion, before: Side, after: Side) -> Division:
         return Division.NONE
     if step.control is not Trait.APPROACH:
         return Division.LOCATE
-    increment = abs(step.value - start.value)
     if is_balanced(jumps, before, after):
         return Division.NONE
-    may_count = jumps.is_jump(step, increment, state.largest_change)
-    if not _is_among_many(problem, first, state, increment, may_count):
+    increment = abs(step.value - start.value)
+    if not (
+        _is_calm(problem, state, increment)
+        or _moves_few_points(jumps, before, after)
+        or _has_many_patches(problem, first, state)
+    ):
         return Division.LOCATE
     is_short = increment <= problem.interaction_range * (1 + ROUNDING)
     return Division.NONE if is_short else Division.SHORTEN
@@ -113,33 +116,32 @@ def is_balanced(jumps: JumpCriterion, before: Side, after: Side) -> bool:
     return abs(released) <= BALANCED_ENERGY * change * increment
 
 
-def _is_among_many(
-    problem: CohesiveProblem, before: Equilibrium, after: Equilibrium, increment: float, may_count: bool
-) -> bool:
-    """Return True if a step of the approach holds no jump, or that of one contact among many, or of few points.
-
-    may_count: the motion is long enough to count as a jump. That of few points is then located, as it may be smooth.
-    """
+def _is_calm(problem: CohesiveProblem, after: Equilibrium, increment: float) -> bool:
+    """Return True if a flow moved the surface by so little of the step that there is no jump to locate."""
     ratio = CALM_RATIO if problem.wall is None else 1 + CALM_RATIO
-    if after.largest_change <= ratio * increment:
-        return True
-    loaded = [_loaded_points(problem, state) for state in (before, after)]
-    if not may_count and _moves_few_points(
-        problem, before, after, increment, max(int(points.sum()) for points in loaded)
-    ):
-        return True
-    shape = problem.heights.shape
-    patches = max(PATCH_COUNTERS[len(shape)](points.reshape(shape)) for points in loaded)
-    return patches > MANY_PATCHES[len(shape)]
+    return after.largest_change <= ratio * increment
 
 
-def _moves_few_points(
-    problem: CohesiveProblem, before: Equilibrium, after: Equilibrium, increment: float, loaded: int
-) -> bool:
-    """Return True if few points, beside those loaded, move farther than the step and than half the largest motion."""
-    motion = np.abs(problem.on_heights(after.gap - before.gap)).max(axis=0)
-    moved = np.count_nonzero(motion > max(increment, after.largest_change / 2))
+def _moves_few_points(jumps: JumpCriterion, before: Side, after: Side) -> bool:
+    """Return True if few points, beside those loaded, move farther than the step and than half the largest motion.
+
+    A motion that would count as a jump is not left unlocated, as it may be smooth.
+    """
+    (start, first), (step, state), problem = before, after, jumps.problem
+    increment = abs(step.value - start.value)
+    if jumps.is_jump(step, increment, state.largest_change):
+        return False
+    motion = np.abs(problem.on_heights(state.gap - first.gap)).max(axis=0)
+    moved = np.count_nonzero(motion > max(increment, state.largest_change / 2))
+    loaded = max(np.count_nonzero(_loaded_points(problem, side)) for side in (first, state))
     return bool(0 < moved <= SMALL_SHARE * loaded)
+
+
+def _has_many_patches(problem: CohesiveProblem, *states: Equilibrium) -> bool:
+    """Return True if one of the states has many loaded patches."""
+    shape = problem.heights.shape
+    count = PATCH_COUNTERS[len(shape)]
+    return any(count(_loaded_points(problem, state).reshape(shape)) > MANY_PATCHES[len(shape)] for state in states)
 
 
 def _loaded_points(problem: CohesiveProblem, state: Equilibrium) -> Array:

@@ -14,7 +14,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from contactsim.contact.hard_wall import Certificate, HardWallProblem, Scale
+from contactsim.contact.certificate import Certificate
+from contactsim.contact.hard_wall import HardWallProblem, Scale
 from contactsim.contact.scene import Scene
 from contactsim.errors import InputError
 from contactsim.grid import Array

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import matplotlib as mpl
 import numpy as np
 import pandas as pd
 import xarray as xr
@@ -19,6 +20,8 @@ HORIZONTAL_TEXT: dict[str, Any] = {"ha": "center", "va": "bottom"}
 VERTICAL_TEXT: dict[str, Any] = {"ha": "right", "va": "center", "rotation": 90}
 BAR: dict[str, Any] = {"color": style.EXACT, "lw": 1.5, "solid_capstyle": "butt"}
 """Scale bars."""
+PALE = 0.55
+"""Share of white in a pale colour."""
 MAX_NODES = 4000
 """Most nodes of a profile that are drawn, more than a picture can show."""
 MANY_WAVES, FEW_WAVES = 512, 64
@@ -109,7 +112,7 @@ def nodes_around(data: xr.Dataset, place: float, share: float) -> slice:
 def plot_waves(axes: Axes, many: xr.Dataset, few: xr.Dataset, share: float, dark: str) -> None:
     """Plot the interface around the highest point, with many (thick, pale) and with few short waves (thin, dark)."""
     place, handles = highest_place(many), []
-    for data, waves, colour, width in ((many, MANY_WAVES, style.paler(dark), 2.4), (few, FEW_WAVES, dark, 0.8)):
+    for data, waves, colour, width in ((many, MANY_WAVES, _paler(dark), 2.4), (few, FEW_WAVES, dark, 0.8)):
         nodes, filled, label = nodes_around(data, place, share), data is many, waves_label(waves)
         plot_interface(axes, data, nodes, colour=colour, label=label, filled=filled, width=width)
         handles.append(Line2D([], [], color=colour, lw=width, label=label))
@@ -117,6 +120,12 @@ def plot_waves(axes: Axes, many: xr.Dataset, few: xr.Dataset, share: float, dark
     style.add_headroom(axes, 0.0, below=0.25)
     axes.legend(handles=handles, loc="lower center", ncols=2, fontsize=7, columnspacing=0.8, handlelength=1.2)
     add_magnification(axes)
+
+
+def _paler(colour: str) -> str:
+    """Return a colour mixed with white."""
+    red, green, blue = (PALE + (1 - PALE) * part for part in mpl.colors.to_rgb(colour))
+    return mpl.colors.to_hex((red, green, blue))
 
 
 def waves_label(waves: int) -> str:
