@@ -1,8 +1,8 @@
 """Other codes on a problem of ours, to measure against, used by no other part of contactsim.
 
-aspher: conjugate gradients of Polonsky and Keer in C++, preconditioned by |q| with a transform and started from a cascade of
-grids (V. A. Yastrebov, aspher 0.1.3, on PyPI). Its compliance on a periodic half-space is ours, its tolerance part of
-the range of heights. ContactMechanics: the same method on a single grid.
+aspher: conjugate gradients of Polonsky and Keer in C++, preconditioned by |q| with a transform and started from a
+cascade of grids (V. A. Yastrebov, aspher 0.1.3, on PyPI). Its compliance on a periodic half-space is ours, its
+tolerance part of the range of heights. ContactMechanics: the same method on a single grid.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ KNOB_NAMES = {"points": "grid points", "tangential_cutoff": "tangential cutoff"}
 }
 
 FEWEST = 2
-"""Fewest different errors that make a panel."""
+"""Fewest errors, different in their first digits, that make a panel."""
 
 
 def varied_knobs(table: pd.DataFrame) -> list[str]:
