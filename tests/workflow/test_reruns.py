@@ -201,7 +201,8 @@ def test_an_edit_of_words_alone_runs_nothing(workshop, how):
         ("interface/cohesive_zone", everything_after("sticky")),
         ("interface/repulsion", set()),
         ("interface/lattice", set()),
-        ("contact/hard_wall", ALL),  # its certificate is one of all solvers
+        ("contact/certificate", ALL),  # of all solvers
+        ("contact/hard_wall", everything_after("wall", "keer")),
         ("contact/pose_hard_wall", everything_after("wall", "keer")),
         ("contact/cohesive", everything_after("sticky")),
         ("solvers/hard_wall/active_set", everything_after("wall")),
