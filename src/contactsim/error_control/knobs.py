@@ -12,6 +12,7 @@ from contactsim.contact.problem_kind import ProblemKind
 from contactsim.contact.scene import Scene
 from contactsim.error_control.relations import Family, Relation
 from contactsim.error_control.scaling import (
+    PATH,
     ROUGH_PATH,
     SLIDE,
     contact_scale,
@@ -27,15 +28,13 @@ from contactsim.paths.options import Setup
 from contactsim.paths.requested import Requested
 from contactsim.traits import Trait
 
-ERROR_SHARES = {"increment": 0.2, "tolerance": 0.1}
-"""Parts of the error that other knobs may make."""
+ERROR_SHARES = {"increment": 0.2, "tolerance": 0.3}
+"""Parts of the error that other knobs may make, by relations that lie above most scenes."""
 PATH_TOLERANCE = 1e-4
 """Tolerance on paths, in parts of the strength: a looser one costs more, as states are then sought by flow."""
-WALL_TOLERANCES = (1e-4, 1e-2)
+WALL_TOLERANCES = (1e-4, 1e-1)
 """Least and largest tolerance at a hard wall, in grid steps."""
-MIN_POWER = 0.3
-"""Powers of a knob below it count as none."""
-MAX_INCREMENT = 2.0
+MAX_INCREMENTS = {PATH: 2.0, ROUGH_PATH: 4.0, SLIDE: 2.0}
 """Longest increment of a path, in the laws' length."""
 MIN_PRESSING_INCREMENT = 0.5
 """Least increment (nm) of the path that presses before a slide: that of the slides that were measured."""
@@ -111,7 +110,8 @@ class PathKnobs:
         (numbers,) = features(scene)
         target = ERROR_SHARES["increment"] * error
         logarithms = solve_relations(family.errors["increment"], names, "increment", numbers, target)
-        increment = float(f"{shortest_range(scene) * math.exp(min([*logarithms, math.log(MAX_INCREMENT)])):.2g}")
+        longest = math.log(MAX_INCREMENTS[scene_family(scene)])
+        increment = float(f"{shortest_range(scene) * math.exp(min([*logarithms, longest])):.2g}")
         try:
             setup = setup.with_increment(increment, pressing=max(increment, MIN_PRESSING_INCREMENT))
         except InputError as too_many:
@@ -150,14 +150,8 @@ def solve_relations(
     relations: Mapping[str, Relation], names: Sequence[str], knob: str, numbers: Mapping[str, float], target: float
 ) -> list[float]:
     """Return the logarithms of a knob at which the errors of quantities meet a target, as far as they depend on it."""
-    logarithms = []
-    for name in names:
-        relation = relations.get(name)
-        if relation is None or not relation.coefficients.get(knob, 0.0) > MIN_POWER:
-            continue
-        rest = math.log(relation({**numbers, knob: 0.0}))
-        logarithms.append((math.log(target) - rest) / relation.coefficients[knob])
-    return logarithms
+    solutions = [relations[name].solve(knob, numbers, target) for name in names if name in relations]
+    return [solution for solution in solutions if solution is not None]
 
 
 def grid_features(scene: Scene, points: int) -> list[dict[str, float]]:

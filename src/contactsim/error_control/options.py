@@ -28,12 +28,12 @@ from contactsim.error_control.stepwise import begin_stepwise, has_relations
 from contactsim.errors import InputError
 from contactsim.paths.options import Setup
 
-SAFETY = {LINE: 0.5, SURFACE: 0.75, PATH: 0.65, ROUGH_PATH: 0.4, SLIDE: 0.7}
+SAFETY = {LINE: 0.5, SURFACE: 0.8, PATH: 0.7, ROUGH_PATH: 0.5, SLIDE: 0.7}
 """Part of an error that the grid is chosen for: less where scenes of a family differ more from their relation."""
 COARSE_INCREMENT_RATIO = 3.0
 """Increments of a coarse companion, over those of its run."""
-COARSE_GRID_RATIOS = {LINE: 5.0}
-"""Ratio of the grid that is expected to be needed to the companion's, where it is not three."""
+COARSE_GRID_RATIOS = {LINE: 7.0, SURFACE: 3.0, PATH: 5.0, ROUGH_PATH: 6.0, SLIDE: 2.0}
+"""Ratio of the grid that is expected to be needed to the companion's."""
 
 
 def choose_options(setup: Setup, error: float, quantities: Sequence[str] = ()) -> Setup:
@@ -98,7 +98,7 @@ def coarsen(setup: Setup) -> Setup:
     """Return the coarse companion of a setup: a coarser grid and longer increments."""
     if is_measured(setup.scene):
         return sample_every_second(setup)
-    ratio = COARSE_GRID_RATIOS.get(scene_family(setup.scene), 3.0)
+    ratio = COARSE_GRID_RATIOS[scene_family(setup.scene)]
     return set_grid(scale_increment(setup, COARSE_INCREMENT_RATIO), setup.points / ratio)
 
 
