@@ -2,8 +2,8 @@
 
 Each relation is a power law in a few numbers that describe the scene, its `features`, with its scatter over the scenes
 that it was fitted to. The grid may also enter by the number of its points in a process zone, on which an error then
-depends exponentially: so does the barrier that a grid puts before the front of a slip. `contactsim.evaluation.calibration.fit`
-fits them; none of the scenes that judge them took part.
+depends exponentially: so does the barrier that a grid puts before the front of a slip.
+`contactsim.evaluation.calibration.fit` fits them; none of the scenes that judge them took part.
 """
 
 from __future__ import annotations
