@@ -123,7 +123,7 @@ def test_an_exponential_law_is_found_again_although_its_small_errors_are_noise()
     rng = np.random.default_rng(3)
     points = rng.uniform(2, 25, 200)
     rows = pd.DataFrame({"kind": SLIDE, "knob": "points", "one": 1.0, "zone_points": points})
-    rows["error_a"] = np.exp(-0.6 * points) + 1e-4 * (points > fit.MAX_ZONE_POINTS)
+    rows["error_a"] = np.exp(-0.6 * points) + 1e-4 * (points > 10)
     law = fit.fit_power_law(rows, "error_a", ("one", "zone_points"), {})
     assert law.coefficients["zone_points"] == pytest.approx(-0.6, rel=0.02)
 
