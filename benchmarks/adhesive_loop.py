@@ -1,0 +1,84 @@
+"""A rough adhesive surface pressed and pulled off in 100 steps, and again in steps of half the length.
+
+    python benchmarks/adhesive_loop.py          # --quick: a coarse grid, and nothing here changes
+
+The surface is that of the study `adhesive_surface`, on twice its points along a side. The two loops should have the same
+loads, the same largest pull and the same dissipated energy.
+"""
+
+from __future__ import annotations
+
+import itertools
+import time
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+from tabulated import Benchmark
+
+import contactsim as cs
+from contactsim.observables.derived import combine_runs, summarise_paths
+
+TURNS, STEPS = (-26.0, -2.0, -32.0), 100
+"""Approaches (nm) at which the loop begins, turns and ends, and its steps."""
+SUMMARY = ("pull_off_force_unloading", "dissipated_work")
+TOLERANCE = 1e-4
+
+
+def follow_loop(points: int, work: float, division: int) -> tuple[xr.Dataset, dict[str, float]]:
+    """The states of a loop, and its summary; division: parts into which each of its steps is divided."""
+    surface = cs.SelfAffine(1024.0, 0.8, 512.0, 32.0, rms_height=5.0, dimensions=2, seed=1)
+    law = cs.StiffCohesiveZone(work_of_separation=work, contact_stiffness=0.3, normal_length=1.0)
+    increment = sum(abs(after - before) for before, after in itertools.pairwise(TURNS)) / STEPS / division
+    scene = cs.Scene(cs.HalfSpace(1.0), surface, law, cs.approaches(TURNS, increment))
+    data = cs.simulate(scene, points=points, tolerance=TOLERANCE)
+    summary = summarise_paths(combine_runs([(data.drop_vars("seconds"), {"member": 0})]), SUMMARY).isel(member=0)
+    names = (*SUMMARY, "dissipated_work_increment_error")
+    return data, {name: float(summary[name]) for name in names}
+
+
+def measure_loop(case: dict, quick: bool) -> dict:
+    """One loop."""
+    del quick
+    begin = time.process_time()
+    data, summary = follow_loop(case["points"], case["work"], case["division"])
+    return {
+        "states": data.step.size,
+        "failed": int((data.status != 0).sum()),
+        "transforms": float(data.transforms.sum()),
+        "seconds": time.process_time() - begin,
+        "jumps": int((data.jump > 0).sum()),
+        "load_at_turn": float(data.mean_pressure.values[np.argmax(data.approach.values)]),
+        **summary,
+    }
+
+
+def cases(quick: bool) -> Iterator[dict]:
+    """Weak and strong adhesion, each in steps and in halves of them."""
+    for work, division in itertools.product((0.03, 0.3), (1, 2)):
+        yield {"work": work, "points": 64 if quick else 512, "division": division}
+
+
+BENCHMARK = Benchmark(
+    "adhesive_loop",
+    case=("work", "points", "division"),
+    found=(
+        *("states", "failed", "transforms", "seconds", "jumps", "load_at_turn"),
+        *(*SUMMARY, "dissipated_work_increment_error"),
+    ),
+    table={
+        "work": ("work of adhesion (N/m)", "{:g}"),
+        "states": ("states", "{:.0f}"),
+        "failed": ("failed", "{:.0f}"),
+        "transforms": ("transforms", "{:.0f}"),
+        "seconds": ("CPU s", "{:.3g}"),
+        "jumps": ("steps with a jump", "{:.0f}"),
+        "load_at_turn": ("pressure at the turn (GPa)", "{:.6f}"),
+        "pull_off_force_unloading": ("largest pull (nN)", "{:.5g}"),
+        "dissipated_work": ("dissipated energy (N/m)", "{:.5f}"),
+        "dissipated_work_increment_error": ("its error (N/m)", "{:.5f}"),
+    },
+)
+
+if __name__ == "__main__":
+    BENCHMARK.run(__doc__, cases, measure_loop)
