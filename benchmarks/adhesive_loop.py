@@ -75,8 +75,8 @@ BENCHMARK = Benchmark(
         "jumps": ("steps with a jump", "{:.0f}"),
         "load_at_turn": ("pressure at the turn (GPa)", "{:.6f}"),
         "pull_off_force_unloading": ("largest pull (nN)", "{:.5g}"),
-        "dissipated_work": ("dissipated energy (N/m)", "{:.5f}"),
-        "dissipated_work_increment_error": ("its error (N/m)", "{:.5f}"),
+        "dissipated_work": ("dissipated energy (N/m)", "{:.3g}"),
+        "dissipated_work_increment_error": ("its error (N/m)", "{:.2g}"),
     },
 )
 
