@@ -2,8 +2,8 @@
 
     python benchmarks/adhesive_loop.py          # --quick: a coarse grid, and nothing here changes
 
-The surface is that of the study `adhesive_surface`, on twice its points along a side. The two loops should have the same
-loads, the same largest pull and the same dissipated energy.
+The surface is that of the study `adhesive_surface`, on twice its points along a side. The two loops should have the
+same loads, the same largest pull and the same dissipated energy.
 """
 
 from __future__ import annotations
