@@ -32,7 +32,7 @@ ERROR_SHARES = {"increment": 0.2, "tolerance": 0.3}
 """Parts of the error that other knobs may make, by relations that lie above most scenes."""
 PATH_TOLERANCE = 1e-4
 """Tolerance on paths, in parts of the strength: a looser one costs more, as states are then sought by flow."""
-WALL_TOLERANCES = (1e-4, 1e-1)
+WALL_TOLERANCES = (1e-4, 1e-2)
 """Least and largest tolerance at a hard wall, in grid steps."""
 MAX_INCREMENTS = {PATH: 2.0, ROUGH_PATH: 4.0, SLIDE: 2.0}
 """Longest increment of a path, in the laws' length."""

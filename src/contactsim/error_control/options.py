@@ -28,7 +28,7 @@ from contactsim.error_control.stepwise import begin_stepwise, has_relations
 from contactsim.errors import InputError
 from contactsim.paths.options import Setup
 
-SAFETY = {LINE: 0.5, SURFACE: 0.8, PATH: 0.7, ROUGH_PATH: 0.5, SLIDE: 0.7}
+SAFETY = {LINE: 0.5, SURFACE: 0.75, PATH: 0.7, ROUGH_PATH: 0.5, SLIDE: 0.7}
 """Part of an error that the grid is chosen for: less where scenes of a family differ more from their relation."""
 COARSE_INCREMENT_RATIO = 3.0
 """Increments of a coarse companion, over those of its run."""
