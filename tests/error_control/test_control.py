@@ -80,32 +80,17 @@ def drawn(family: str, count: int = 0) -> Run:
     return draw_scene(family, DRAWS.kinds[family], 4, count)
 
 
-def test_a_relation_is_a_power_law_that_is_solved_for_a_knob():
-    law = Relation({"one": np.log(2.0), "grid": 1.5, "increment": 0.1}, 0.1)
-    features = {"one": 1.0, "increment": 0.0}
-    assert law(features | {"grid": np.log(4.0)}) == pytest.approx(16.0)
-    assert law.solve("grid", features, 16.0) == pytest.approx(np.log(4.0))
-    assert law.solve("increment", features | {"grid": 0.0}, 16.0) is None  # a power too small to count
-
-
-def test_a_relation_is_exponential_in_the_points_of_a_process_zone():
-    law = Relation({"one": 0.5, "zone_points": -0.6}, 0.1)
-    features = {"one": 1.0, "zone": -1.0}  # the zone is e times the length of the contact
-    spacing = np.log(0.25)
-    assert law(features | {"grid": spacing}) == pytest.approx(np.exp(0.5 - 0.6 * 4 * np.e))
-    assert law.solve("grid", features, law(features | {"grid": spacing})) == pytest.approx(spacing)
-    coarsest = law.solve("grid", features, 100.0)  # no grid leaves so large an error
-    assert law(features | {"grid": coarsest}) == pytest.approx(np.exp(0.5 - 0.6))
+def test_a_relation_is_a_power_law_with_its_scatter():
+    law = Relation({"one": np.log(2.0), "grid": 1.5}, 0.1)
+    assert law({"one": 1.0, "grid": np.log(4.0)}) == pytest.approx(16.0)
+    assert law({"one": 1.0, "grid": 0.0}, 2.0) == pytest.approx(2 * np.exp(0.2))
 
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_every_family_has_relations_and_errors_fall_with_the_grid(family):
     relations = scaling_relations().families[family]
     assert set(QUANTITIES[family]) <= set(relations.errors["points"])
-    features = dict.fromkeys(relations.ranges, 0.0) | {"one": 1.0, "pressure": -3.0, "rough": 0.0}
-    for relation in relations.errors["points"].values():
-        coarse, fine = (relation(features | {"grid": np.log(spacing)}) for spacing in (1 / 4, 1 / 8))
-        assert fine <= 1.001 * coarse / 2
+    assert all(relation.coefficients["grid"] >= 1 for relation in relations.errors["points"].values())
     assert relations.seconds["step"] > 0
     assert 0 < relations.warm_start <= 1.5
 

@@ -10,7 +10,7 @@ import pytest
 
 from contactsim import dataset
 from contactsim.error_control.relations import build_relations
-from contactsim.error_control.scaling import LINE, PATH, SLIDE
+from contactsim.error_control.scaling import LINE, PATH
 from contactsim.evaluation.calibration import fit, measurement, sampling, validation
 from contactsim.evaluation.calibration.sampling import read_trials
 from contactsim.evaluation.effects import effect_cost, map_settings, survey
@@ -117,15 +117,6 @@ def test_a_straight_line_through_logarithms_is_found_again():
     assert law.coefficients["grid"] == pytest.approx(1.5, rel=0.02)
     assert law.spread < 0.05
     assert fit.fit_power_law(rows[:3], "error_a", ("one", "grid"), {}) is None
-
-
-def test_an_exponential_law_is_found_again_although_its_small_errors_are_noise():
-    rng = np.random.default_rng(3)
-    points = rng.uniform(2, 25, 200)
-    rows = pd.DataFrame({"kind": SLIDE, "knob": "points", "one": 1.0, "zone_points": points})
-    rows["error_a"] = np.exp(-0.6 * points) + 1e-4 * (points > 10)
-    law = fit.fit_power_law(rows, "error_a", ("one", "zone_points"), {})
-    assert law.coefficients["zone_points"] == pytest.approx(-0.6, rel=0.02)
 
 
 def test_a_relation_gives_the_size_of_errors_that_scatter_and_not_their_middle():

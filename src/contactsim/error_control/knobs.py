@@ -28,14 +28,16 @@ from contactsim.paths.options import Setup
 from contactsim.paths.requested import Requested
 from contactsim.traits import Trait
 
-ERROR_SHARES = {"increment": 0.2, "tolerance": 0.3}
-"""Parts of the error that other knobs may make, by relations that lie above most scenes."""
+ERROR_SHARES = {"increment": 0.2, "tolerance": 0.1}
+"""Parts of the error that other knobs may make."""
 PATH_TOLERANCE = 1e-4
 """Tolerance on paths, in parts of the strength: a looser one costs more, as states are then sought by flow."""
 WALL_TOLERANCES = (1e-4, 1e-2)
 """Least and largest tolerance at a hard wall, in grid steps."""
-MAX_INCREMENTS = {PATH: 2.0, ROUGH_PATH: 4.0, SLIDE: 2.0}
-"""Longest increment of a path, in the laws' length."""
+MIN_POWER = 0.3
+"""Powers of a knob below it count as none."""
+MAX_INCREMENTS = {PATH: 2.0, ROUGH_PATH: 4.0, SLIDE: 1.0}
+"""Longest increment of a path, in the laws' length: the longest that was measured."""
 MIN_PRESSING_INCREMENT = 0.5
 """Least increment (nm) of the path that presses before a slide: that of the slides that were measured."""
 
@@ -150,8 +152,14 @@ def solve_relations(
     relations: Mapping[str, Relation], names: Sequence[str], knob: str, numbers: Mapping[str, float], target: float
 ) -> list[float]:
     """Return the logarithms of a knob at which the errors of quantities meet a target, as far as they depend on it."""
-    solutions = [relations[name].solve(knob, numbers, target) for name in names if name in relations]
-    return [solution for solution in solutions if solution is not None]
+    logarithms = []
+    for name in names:
+        relation = relations.get(name)
+        if relation is None or not relation.coefficients.get(knob, 0.0) > MIN_POWER:
+            continue
+        rest = math.log(relation({**numbers, knob: 0.0}))
+        logarithms.append((math.log(target) - rest) / relation.coefficients[knob])
+    return logarithms
 
 
 def grid_features(scene: Scene, points: int) -> list[dict[str, float]]:

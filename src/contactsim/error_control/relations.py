@@ -1,9 +1,7 @@
 """Relations between error, cost and a scene, measured once and read from a file.
 
 Each relation is a power law in a few numbers that describe the scene, its `features`, with its scatter over the scenes
-that it was fitted to. The grid may also enter by the number of its points in a process zone, on which an error then
-depends exponentially: so does the barrier that a grid puts before the front of a slip.
-`contactsim.evaluation.calibration.fit` fits them; none of the scenes that judge them took part.
+that it was fitted to. `contactsim.evaluation.calibration.fit` fits them; none of the scenes that judge them took part.
 """
 
 from __future__ import annotations
@@ -11,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
-from math import exp, log
 from pathlib import Path
 from typing import Any
 
@@ -19,12 +16,6 @@ import numpy as np
 import yaml
 
 FILE = Path(__file__).with_name("scaling.yaml")
-ZONE_POINTS = "zone_points"
-"""Feature that follows from the others: grid points in a process zone."""
-MIN_ZONE_POINTS = 1.0
-"""Fewest points in a process zone that a relation is solved for."""
-MIN_POWER = 0.3
-"""Powers of a knob below it count as none."""
 
 
 @dataclass(frozen=True)
@@ -42,23 +33,10 @@ class Relation:
     coefficients: Mapping[str, float]
     spread: float
 
-    def __call__(self, features: Mapping[str, float]) -> float:
-        """Return the expected value."""
-        return float(np.exp(sum(factor * _read_feature(name, features) for name, factor in self.coefficients.items())))
-
-    def solve(self, knob: str, features: Mapping[str, float], value: float) -> float | None:
-        """Return the logarithm of a knob at which a value is expected; None where it hardly depends on the knob."""
-        name = ZONE_POINTS if knob == "grid" and ZONE_POINTS in self.coefficients else knob
-        if name == knob and not self.coefficients.get(knob, 0.0) > MIN_POWER:
-            return None
-        rest = sum(factor * features[other] for other, factor in self.coefficients.items() if other != name)
-        solution = (log(value) - rest) / self.coefficients[name]
-        return solution if name == knob else -log(max(solution, MIN_ZONE_POINTS)) - features["zone"]
-
-
-def _read_feature(name: str, features: Mapping[str, float]) -> float:
-    """Return a feature, or the one that follows from others."""
-    return exp(-features["grid"] - features["zone"]) if name == ZONE_POINTS else features[name]
+    def __call__(self, features: Mapping[str, float], deviations: float = 0.0) -> float:
+        """Return the expected value, or one that lies some standard deviations above it."""
+        total = sum(factor * features[name] for name, factor in self.coefficients.items())
+        return float(np.exp(total + deviations * self.spread))
 
 
 @dataclass(frozen=True)

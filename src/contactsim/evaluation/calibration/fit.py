@@ -1,7 +1,6 @@
 """Fit the scaling relations of error and cost to measurements.
 
-Every relation is a straight line through logarithms by least squares, with the scatter that remains: a power law, or
-an exponential one where a process zone must be resolved.
+Every relation is a power law: a straight line through logarithms by least squares, with the scatter that remains.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ import pandas as pd
 import yaml
 from scipy.optimize import least_squares
 
-from contactsim.error_control.relations import ZONE_POINTS, Relation
+from contactsim.error_control.relations import Relation
 from contactsim.error_control.scaling import DEFAULT_GRID_ORDER, GRID_ORDERS, LINE, PATH, ROUGH_PATH, SLIDE, SURFACE
 from contactsim.errors import InputError
 from contactsim.evaluation.calibration.measurement import MEASURED_QUANTITIES
@@ -28,8 +27,6 @@ ERROR_FEATURES = {
     ROUGH_PATH: ("one", "grid", "hurst_exponent", "bandwidth", "strength"),
     SLIDE: ("one", "grid", "zone"),
 }
-EXPONENTIAL = {"static_friction": ("one", ZONE_POINTS)}
-"""Features of errors that fall exponentially with the points in a process zone."""
 WORK_FEATURES = {
     LINE: ("one", "area", "size", "tolerance", *ROUGH),
     SURFACE: ("one", "area", "size", "tolerance", *ROUGH),
@@ -58,9 +55,7 @@ INCREMENT_ORDERS = {"pull_off_load_loading": 1.0}
 NOISE, WRONG = {"points": 5e-4}, 0.15
 """Relative errors below and above which a setting is left out of the fit: noise, and the pre-asymptotic range."""
 FAINT = 1e-6
-"""The same noise of other knobs, which make only a part of the error, and of errors that fall exponentially."""
-MAX_ZONE_POINTS = 10.0
-"""Points in a process zone from which on a grid is left out of an exponential fit: its error is soon mere noise."""
+"""The same noise of other knobs, which make only a part of the error."""
 MIN_ROWS = 6
 RIDGE_WEIGHT = 1e-3
 """Weight that keeps coefficients small where features are alike."""
@@ -96,7 +91,6 @@ def fit_relations(table: pd.DataFrame) -> dict[str, Any]:
 
 def _fit_family(kind: str, rows: pd.DataFrame) -> dict[str, Any]:
     """Fit the relations of one family to all its rows."""
-    rows = rows.assign(**{ZONE_POINTS: np.exp(-rows.grid - rows.get("zone", np.nan))})
     wall = kind in (LINE, SURFACE)
     other = "tolerance" if wall else "increment"
     fits: dict[str, dict[str, PowerLaw | None]] = {"points": {}, other: {}, "resolved": {}}
@@ -105,7 +99,7 @@ def _fit_family(kind: str, rows: pd.DataFrame) -> dict[str, Any]:
         column = f"error_{name}"
         order = GRID_ORDERS.get(name, DEFAULT_GRID_ORDER)
         prescribed = {} if name in FITTED_ORDER else {"grid": order}
-        fits["points"][name] = fit_power_law(grids, column, EXPONENTIAL.get(name, ERROR_FEATURES[kind]), prescribed)
+        fits["points"][name] = fit_power_law(grids, column, ERROR_FEATURES[kind], prescribed)
         of_knob = {other: INCREMENT_ORDERS[name]} if name in INCREMENT_ORDERS else {}
         fits[other][name] = fit_power_law(others, column, ("one", other), of_knob)
         if wall:
@@ -153,10 +147,7 @@ def fit_power_law(
     values = rows[of].to_numpy(float)
     good = np.isfinite(values) & (values > 0)
     if of.startswith("error"):
-        noise = FAINT if ZONE_POINTS in names else NOISE.get(rows.knob.iloc[0], FAINT)
-        good &= (values > noise) & (values < WRONG)
-    if ZONE_POINTS in names:
-        good &= rows[ZONE_POINTS].to_numpy(float) < MAX_ZONE_POINTS
+        good &= (values > NOISE.get(rows.knob.iloc[0], FAINT)) & (values < WRONG)
     if good.sum() < MIN_ROWS:
         return None
     rows, logs = rows[good], np.log(values[good])
