@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 
 from contactsim import dataset
+from contactsim.error_control.knobs import MAX_INCREMENTS
 from contactsim.error_control.relations import build_relations
 from contactsim.error_control.scaling import LINE, PATH
 from contactsim.evaluation.calibration import fit, measurement, sampling, validation
@@ -106,6 +107,11 @@ def test_relations_measured_anew_have_the_form_of_the_packages():
 @pytest.mark.parametrize("family", sorted(measurement.MEASURED_QUANTITIES))
 def test_what_the_relations_are_of_is_a_number_of_results(family):
     assert set(measurement.MEASURED_QUANTITIES[family]) <= set(RESULTS)
+
+
+@pytest.mark.parametrize("family", sorted(MAX_INCREMENTS))
+def test_no_increment_is_longer_than_the_longest_that_was_measured(family):
+    assert MAX_INCREMENTS[family] <= max(measurement.INCREMENTS[family])
 
 
 def test_a_straight_line_through_logarithms_is_found_again():

@@ -29,7 +29,7 @@ from contactsim.errors import InputError
 from contactsim.paths.options import Setup
 
 SAFETY = {LINE: 0.5, SURFACE: 0.75, PATH: 0.7, ROUGH_PATH: 0.5, SLIDE: 0.7}
-"""Part of an error that the grid is chosen for: less where scenes of a family differ more from their relation."""
+"""Part of an error that the grid is chosen for, as random scenes ask for."""
 COARSE_INCREMENT_RATIO = 3.0
 """Increments of a coarse companion, over those of its run."""
 COARSE_GRID_RATIOS = {LINE: 7.0, SURFACE: 3.0, PATH: 5.0, ROUGH_PATH: 6.0, SLIDE: 3.0}
