@@ -11,6 +11,7 @@ import pytest
 import yaml
 
 import contactsim
+import contactsim as cs
 from contactsim import cli, dataset
 from contactsim.error_control import control, options
 from contactsim.error_control.control import Controlled, estimate_errors, solve_to_error
@@ -236,6 +237,26 @@ def test_a_quantity_that_a_path_does_not_have_is_left_out_or_refused_if_it_was_a
     assert "pull_off_load_loading_estimated_error" not in data
     with refused("accuracy.quantities", "does not come so far, or does not turn back"):
         contactsim.simulate(pressed, accuracy=0.1, quantities=["pull_off_load_loading"])
+
+
+SLIDES = {
+    "weak, on a half-space": (cs.HalfSpace(80.0, 0.35), 1.2, 4000.0, 5.0, 0.02),
+    "on a thin layer": (cs.Layer(80.0, 0.35, 2000.0), 0.8, 4000.0, 5.0, 0.02),
+    "of a small contact": (cs.HalfSpace(100.0, 0.3), 3.0, 2500.0, 0.0, 0.01),
+}
+"""Elastic body, work of separation, radius, depth and wanted error of slides beyond those that were measured."""
+
+
+@pytest.mark.parametrize("name", SLIDES)
+def test_a_slide_beyond_all_that_was_measured_is_as_accurate_as_was_asked_for(name):
+    body, work, radius, depth, error = SLIDES[name]
+    path = cs.approaches([-2.0, depth], 0.5) >> cs.sliding([0.0, 10.0], 0.5, approach=depth)
+    scene = cs.Scene(body, cs.Cylinder(4 * radius, radius), cs.CohesiveZone(work, 0.8, 1.0, 1.0), path)
+    result = solve_to_error(Setup(scene), error)
+    last = result.last.setup.with_options(tolerance=1e-5)
+    finer = solve_setup(last.with_increment(0.02, pressing=0.5).with_options(points=2 * last.points), QUANTITIES[SLIDE])
+    assert result.met
+    assert result.last.values["static_friction"] == pytest.approx(finer.values["static_friction"], rel=error)
 
 
 @pytest.mark.parametrize("family", [LINE, SURFACE])

@@ -21,16 +21,16 @@ from contactsim.reference import hard_wall
 )
 def test_an_error_is_met_where_every_load_of_every_quantity_meets_it(loads, met):
     errors = {"relative_contact_area": np.full(2, 1e-3), "mean_gap": np.array(loads)}
-    assert Controlled(None, [], errors, wanted=0.01).met is met
+    assert Controlled(None, [], errors, wanted=0.01, companion=None).met is met
 
 
 def run(value, expected):
     """A solution that stands for its value and for the error that is expected of it."""
-    return SimpleNamespace(setup=expected, values={"mean_gap": np.array([value])}, solved=True)
+    return SimpleNamespace(setup=expected, values={"mean_gap": np.array([value])}, solved=True, increment_errors={})
 
 
 def test_a_difference_of_second_order_gives_the_error_of_the_finer_run(monkeypatch):
-    monkeypatch.setattr(control, "expect_error", lambda setup, family, name: setup)
+    monkeypatch.setattr(control, "expect_error", lambda setup, family, name, knobs: setup)
     fine, coarse = run(1.003, 1e-4), run(1.012, 4e-4)  # of 1, with twice the spacing
     (error,) = estimate_errors(fine, coarse, SimpleNamespace(resolved={}), ["mean_gap"])["mean_gap"]
     assert error == pytest.approx(DIFFERENCE_WEIGHT * 0.003 / 1.003)
@@ -38,6 +38,14 @@ def test_a_difference_of_second_order_gives_the_error_of_the_finer_run(monkeypat
         "mean_gap"
     ]
     assert expected == 1e-4  # a difference may vanish by chance
+
+
+def test_the_error_that_the_states_of_a_slide_tell_is_added_and_a_difference_counts_for_a_quarter_at_least(monkeypatch):
+    monkeypatch.setattr(control, "expect_error", lambda setup, family, name, knobs: setup)
+    fine, coarse = run(1.0, 1e-4), run(1.08, 1e-2)  # by the relation a hundredth of the difference would be left
+    fine.increment_errors["mean_gap"] = np.array([0.003])
+    (error,) = estimate_errors(fine, coarse, SimpleNamespace(resolved={}), ["mean_gap"])["mean_gap"]
+    assert error == pytest.approx(0.08 / 4 + 0.003)
 
 
 def test_the_expected_area_of_a_sphere_is_that_of_hertz():

@@ -1,4 +1,4 @@
-"""Solve a scene to a wanted error: on two grids, the error estimated, and refined once where it is missed.
+"""Solve a scene to a wanted error: on two grids, the error estimated, and refined where it is missed.
 
 Scenes without measured relations are solved as `stepwise` describes.
 
@@ -6,7 +6,8 @@ The coarse companion is solved first. At a hard wall it shows how small the cont
 from it better than from any relation, and its pressure is where the cascade of the run begins. Along a path it has
 three times the increments too, so that its difference from the run is what all knobs together leave. The estimate
 is the larger of that difference, which shrinks with the order of convergence, and of the error expected of such a grid,
-as differences may vanish by chance.
+as differences may vanish by chance. The states of a slide tell what its increments leave, so its companion has the same
+ones, and that error is added.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.contact.problem_kind import ProblemKind
-from contactsim.error_control.knobs import grid_features
+from contactsim.error_control.knobs import EXPECTED, GRID, grid_features
 from contactsim.error_control.measured import KEPT_QUANTITIES, even_part, is_measured
 from contactsim.error_control.options import SAFETY, choose_options, coarsen, expect_error, scale_increment, set_grid
 from contactsim.error_control.relations import Family, scaling_relations
@@ -37,12 +38,21 @@ MAX_REFINEMENT = {1: 8.0, 2: 4.0}
 """Largest ratio of a run's grid to its companion's, and of a refined grid to the first, by dimension."""
 DIFFERENCE_WEIGHT = 0.7
 """Part of a difference that counts: the coarser run is often too coarse to be of any order, and makes it large."""
+LEAST_PART = 0.25
+"""Least part of a difference from a companion that the grid of a slide is taken to leave. On few points for a contact
+or a process zone they are of no order."""
+INCREMENT_SHARE = 0.3
+"""Part of the error that increments may leave where the states tell what they leave."""
+MAX_INCREMENT_DIVISION = 8.0
+"""How many times shorter increments may become at once."""
 MIN_EDGE_SHARE = 1e-9
 """Least part of a contact that counts as its edge."""
 BLIND_REFINEMENT = 2.0
 """Ratio of a refined grid to the first where nothing is known of the error."""
 MIN_REFINEMENT = 1.25
 """Smallest ratio of a refined grid to the first."""
+MAX_REFINEMENTS = 2
+"""How often a run is refined at most."""
 
 
 @dataclass(frozen=True)
@@ -54,17 +64,23 @@ class Controlled:
     last : Solution
         The final run.
     before : list of Solution
-        What was solved before it; the companion of the last estimate comes last.
+        What was solved before it, in that order.
     errors : dict from str to Array
         Estimated relative error by quantity, of each load or of the path.
     wanted : float
         The relative error that was asked for.
+    companion : Solution
+        The run on a coarser grid that the estimate compares with.
+    refinements : int
+        How often the run was refined.
     """
 
     last: Solution
     before: list[Solution]
     errors: dict[str, Array]
     wanted: float
+    companion: Solution
+    refinements: int = 0
 
     @property
     def met(self) -> bool:
@@ -87,8 +103,8 @@ class Controlled:
         data = data.assign(
             accuracy=self.wanted,
             accuracy_reached=int(self.met),
-            coarse_run_points=self.before[-1].points,
-            refinements=sum(run.points < self.before[-1].points for run in self.before),
+            coarse_run_points=self.companion.points,
+            refinements=self.refinements,
             coarse_run_transforms=self.work - self.last.transforms,
             seconds=("step", seconds),
         )
@@ -121,28 +137,37 @@ def solve_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -
     Returns
     -------
     Controlled
-        The final solution with its estimates. `met` is false where the error is missed after one refinement.
+        The final solution with its estimates. `met` is false where the error is missed after `MAX_REFINEMENTS`.
     """
     first = choose_options(setup, error, quantities)
     if is_measured(first.scene):
         return _solve_measured(first, error, quantities)
     if not has_relations(first.scene):
         (*before, last), errors = solve_stepwise(first, error, quantities)
-        return Controlled(last, before, errors, error)
+        return Controlled(last, before, errors, error, before[-1], len(before) - 1)
     name_of_family = scene_family(first.scene)
     family, names = scaling_relations().families[name_of_family], tuple(quantities or QUANTITIES[name_of_family])
     companion = COMPANIONS[setup.scene.kind](coarsen(first))
-    before = [solve_setup(companion, names)]
-    last = solve_setup(_follow_companion(first, before[0], family, names, error), names, before[0])
-    names = keep_present(before[0], last, names, quantities)
-    errors = estimate_errors(last, before[0], family, names)
-    logger.info("on %d points, after %d: %s", last.points, before[0].points, describe_errors(errors, error))
-    if any(not (values <= error).all() for values in errors.values()):
-        before.append(last)
-        last = solve_setup(_refine(last, errors, error), names, before[0])
-        errors = estimate_errors(last, before[1], family, names)
+    coarse = solve_setup(companion, names)
+    last = solve_setup(_follow_companion(first, coarse, family, names, error), names, coarse)
+    names = keep_present(coarse, last, names, quantities)
+    errors = estimate_errors(last, coarse, family, names)
+    logger.info("on %d points, after %d: %s", last.points, coarse.points, describe_errors(errors, error))
+    runs = [coarse, last]
+    while len(runs) < 2 + MAX_REFINEMENTS and any(not (values <= error).all() for values in errors.values()):
+        previous = runs[-1]
+        last = solve_setup(_refine(previous, errors, error), names, coarse)
+        names = keep_present(previous, last, names, quantities)
+        runs.append(last)
+        errors = estimate_errors(last, _next_coarser(runs), family, names)
         logger.info("refined to %d points: %s", last.points, describe_errors(errors, error))
-    return Controlled(last, before, errors, error)
+    return Controlled(last, runs[:-1], errors, error, _next_coarser(runs), len(runs) - 2)
+
+
+def _next_coarser(runs: Sequence[Solution]) -> Solution:
+    """Return the last solved of some runs on a coarser grid than the final one's: increments alone may be refined."""
+    coarser = [run for run in runs if run.points < runs[-1].points]
+    return ([run for run in coarser if run.solved] or coarser)[-1]
 
 
 def _solve_measured(setup: Setup, error: float, quantities: Sequence[str]) -> Controlled:
@@ -156,7 +181,7 @@ def _solve_measured(setup: Setup, error: float, quantities: Sequence[str]) -> Co
     base = fine if even is lean else solve_setup(even, names)
     errors = {name: relative_difference(base, coarse, name) for name in names}
     logger.info("on %d points, and on every second: %s", fine.points, describe_errors(errors, error))
-    return Controlled(fine, [coarse] if base is fine else [base, coarse], errors, error)
+    return Controlled(fine, [coarse] if base is fine else [base, coarse], errors, error, coarse)
 
 
 COMPANIONS: dict[ProblemKind, Callable[[Setup], Setup]] = {
@@ -170,18 +195,21 @@ def estimate_errors(fine: Solution, coarse: Solution, family: Family, names: Seq
     """Return relative errors of a run by quantity.
 
     The larger counts of what its knobs are expected to leave and its difference from a coarser run, which shrinks as
-    the relations say that errors do between the two.
+    the relations say that errors do between the two. What the states of a run tell of its increments comes on top.
     """
     errors = {}
     for name in names:
         expected, expected_before = _expected_errors(fine, family, name), _expected_errors(coarse, family, name)
-        changes = relative_difference(fine, coarse, name) * expected / np.maximum(expected_before - expected, expected)
-        errors[name] = np.maximum(DIFFERENCE_WEIGHT * changes, expected)
+        part = DIFFERENCE_WEIGHT * expected / np.maximum(expected_before - expected, expected)
+        if name in fine.increment_errors:
+            part = np.maximum(part, LEAST_PART)
+        changes = part * relative_difference(fine, coarse, name)
+        errors[name] = np.maximum(changes, expected) + fine.increment_errors.get(name, 0.0)
     return errors
 
 
 def _expected_errors(run: Solution, family: Family, name: str) -> Array:
-    """Return the relative error that grid and increments leave.
+    """Return the relative error that the grid leaves, and the increments where no state tells it.
 
     Where the contacts of a solution have been seen, it is the geometric mean of what is known of such scenes and of
     what follows from how well the contacts are resolved.
@@ -195,7 +223,8 @@ def _expected_errors(run: Solution, family: Family, name: str) -> Array:
         return np.array(
             [math.sqrt(family.resolved[name](numbers) * family.errors["points"][name](numbers)) for numbers in seen]
         )
-    return np.array([expect_error(run.setup, family, name)])
+    knobs = GRID if name in run.increment_errors else EXPECTED
+    return np.array([expect_error(run.setup, family, name, knobs)])
 
 
 def _follow_companion(setup: Setup, companion: Solution, family: Family, names: Sequence[str], error: float) -> Setup:
@@ -210,15 +239,22 @@ def _follow_companion(setup: Setup, companion: Solution, family: Family, names: 
 
 
 def _refine(run: Solution, errors: dict[str, Array], error: float) -> Setup:
-    """Return the setup of a run that missed: a grid finer by as much as the estimates say, and half the increments."""
-    wanted = SAFETY[scene_family(run.setup.scene)] * error
-    worst = {name: float(values.max()) for name, values in errors.items()}
-    refinement = max(
-        BLIND_REFINEMENT if np.isinf(value) else (value / wanted) ** (1 / GRID_ORDERS.get(name, DEFAULT_GRID_ORDER))
-        for name, value in worst.items()
-    )
-    finer = run.points * float(np.clip(refinement, MIN_REFINEMENT, _max_refinement(run)))
-    return set_grid(scale_increment(run.setup, 0.5), finer, error)
+    """Return the setup of a run that missed: its grid finer and its increments shorter, by as much as estimates say.
+
+    Where no state tells what the increments leave, they are halved.
+    """
+    wanted, told = SAFETY[scene_family(run.setup.scene)] * error, run.increment_errors
+    refinement, division = 1.0, 1.0 if set(errors) <= set(told) else 2.0
+    for name, values in errors.items():
+        of_increments = float(told[name].max()) if name in told else 0.0
+        of_grid = float(values.max()) - of_increments
+        division = max(division, math.sqrt(of_increments / (INCREMENT_SHARE * error)))
+        order = GRID_ORDERS.get(name, DEFAULT_GRID_ORDER)
+        refinement = max(refinement, BLIND_REFINEMENT if np.isinf(of_grid) else (of_grid / wanted) ** (1 / order))
+    setup = scale_increment(run.setup, 1 / min(division, MAX_INCREMENT_DIVISION))
+    if refinement == 1.0:
+        return setup
+    return set_grid(setup, run.points * float(np.clip(refinement, MIN_REFINEMENT, _max_refinement(run))), error)
 
 
 def _max_refinement(run: Solution) -> float:

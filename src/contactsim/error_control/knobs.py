@@ -28,6 +28,8 @@ from contactsim.paths.options import Setup
 from contactsim.paths.requested import Requested
 from contactsim.traits import Trait
 
+GRID, EXPECTED = ("points",), ("points", "increment")
+"""Knobs whose error is expected from relations: of the grid alone, and of all."""
 ERROR_SHARES = {"increment": 0.2, "tolerance": 0.1}
 """Parts of the error that other knobs may make."""
 PATH_TOLERANCE = 1e-4
@@ -38,6 +40,11 @@ MIN_POWER = 0.3
 """Powers of a knob below it count as none."""
 MAX_INCREMENTS = {PATH: 2.0, ROUGH_PATH: 4.0, SLIDE: 1.0}
 """Longest increment of a path, in the laws' length: the longest that was measured."""
+PEAK_INCREMENTS = {SLIDE: 1.8}
+"""Increment of a path, in the laws' length, that places a largest force well enough for an error of 1. It goes with the
+root of the error, as the force bends from state to state. Shorter increments hardly cost more, as slips are located."""
+CONTACT_POINTS = {SLIDE: 0.6}
+"""Points for the half-width of the contact for an error of 1; they go with the root of the error, from below."""
 MIN_PRESSING_INCREMENT = 0.5
 """Least increment (nm) of the path that presses before a slide: that of the slides that were measured."""
 
@@ -65,8 +72,8 @@ class Knobs(Protocol):
         """Return the length (nm) that contacts are measured by, for each set of features."""
         ...
 
-    def expect_error(self, setup: Setup, family: Family, name: str) -> float:
-        """Return the largest relative error of a quantity that grid and increments are expected to leave."""
+    def expect_error(self, setup: Setup, family: Family, name: str, knobs: Sequence[str]) -> float:
+        """Return the largest relative error of a quantity that these knobs, of `EXPECTED`, are expected to leave."""
         ...
 
 
@@ -98,7 +105,7 @@ class LoadKnobs:
         """Return a length (nm) for each load."""
         return [contact_scale(scene, step.value) for step in scene.path.steps]
 
-    def expect_error(self, setup: Setup, family: Family, name: str) -> float:
+    def expect_error(self, setup: Setup, family: Family, name: str, knobs: Sequence[str]) -> float:
         """Return the error that the grid leaves at the worst load."""
         return max(family.errors["points"][name](numbers) for numbers in grid_features(setup.scene, setup.points))
 
@@ -112,8 +119,9 @@ class PathKnobs:
         (numbers,) = features(scene)
         target = ERROR_SHARES["increment"] * error
         logarithms = solve_relations(family.errors["increment"], names, "increment", numbers, target)
-        longest = math.log(MAX_INCREMENTS[scene_family(scene)])
-        increment = float(f"{shortest_range(scene) * math.exp(min([*logarithms, longest])):.2g}")
+        name_of_family = scene_family(scene)
+        longest = min(MAX_INCREMENTS[name_of_family], PEAK_INCREMENTS.get(name_of_family, math.inf) * math.sqrt(error))
+        increment = float(f"{shortest_range(scene) * math.exp(min([*logarithms, math.log(longest)])):.2g}")
         try:
             setup = setup.with_increment(increment, pressing=max(increment, MIN_PRESSING_INCREMENT))
         except InputError as too_many:
@@ -136,12 +144,12 @@ class PathKnobs:
         """Return one length (nm) for the whole path."""
         return [contact_scale(scene)]
 
-    def expect_error(self, setup: Setup, family: Family, name: str) -> float:
-        """Return the error that grid and increments leave together."""
+    def expect_error(self, setup: Setup, family: Family, name: str, knobs: Sequence[str]) -> float:
+        """Return the error that the knobs leave together."""
         scene = setup.scene
         (numbers,) = grid_features(scene, setup.points)
         numbers |= {"increment": math.log(path_increment(scene) / shortest_range(scene))}
-        relations = [family.errors[knob][name] for knob in ("points", "increment") if name in family.errors[knob]]
+        relations = [family.errors[knob][name] for knob in knobs if name in family.errors[knob]]
         return sum(relation(numbers) for relation in relations)
 
 

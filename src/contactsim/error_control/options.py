@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 
 from contactsim.error_control.grids import MIN_POINTS, choose_grid
-from contactsim.error_control.knobs import KNOBS, solve_relations
+from contactsim.error_control.knobs import CONTACT_POINTS, EXPECTED, KNOBS, solve_relations
 from contactsim.error_control.measured import choose_measured, is_measured, sample_every_second
 from contactsim.error_control.relations import Family, scaling_relations
 from contactsim.error_control.scaling import (
@@ -21,6 +21,7 @@ from contactsim.error_control.scaling import (
     ROUGH_PATH,
     SLIDE,
     SURFACE,
+    contact_scale,
     features,
     scene_family,
 )
@@ -30,8 +31,8 @@ from contactsim.paths.options import Setup
 
 SAFETY = {LINE: 0.5, SURFACE: 0.75, PATH: 0.7, ROUGH_PATH: 0.5, SLIDE: 0.7}
 """Part of an error that the grid is chosen for, as random scenes ask for."""
-COARSE_INCREMENT_RATIO = 3.0
-"""Increments of a coarse companion, over those of its run."""
+COARSE_INCREMENT_RATIOS = {LINE: 1.0, SURFACE: 1.0, PATH: 3.0, ROUGH_PATH: 3.0, SLIDE: 1.0}
+"""Increments of a coarse companion, over those of its run; of slides the same, as states tell what they leave."""
 COARSE_GRID_RATIOS = {LINE: 7.0, SURFACE: 3.0, PATH: 5.0, ROUGH_PATH: 6.0, SLIDE: 3.0}
 """Ratio of the grid that is expected to be needed to the companion's."""
 
@@ -78,6 +79,8 @@ def choose_options(setup: Setup, error: float, quantities: Sequence[str] = ()) -
             family.errors["points"], names, "grid", numbers, SAFETY[name_of_family] * error
         )
     )
+    if name_of_family in CONTACT_POINTS:
+        spacing = min(spacing, contact_scale(scene) / CONTACT_POINTS[name_of_family] * math.sqrt(error))
     points = choose_grid(scene, max(scene.length / spacing, 2 * MIN_POINTS), error)
     setup = knobs.choose_tolerance(setup.with_options(points=points), family, names, error)
     return knobs.suit_grid(setup)
@@ -98,10 +101,11 @@ def coarsen(setup: Setup) -> Setup:
     """Return the coarse companion of a setup: a coarser grid and longer increments."""
     if is_measured(setup.scene):
         return sample_every_second(setup)
-    ratio = COARSE_GRID_RATIOS[scene_family(setup.scene)]
-    return set_grid(scale_increment(setup, COARSE_INCREMENT_RATIO), setup.points / ratio)
+    family = scene_family(setup.scene)
+    longer = scale_increment(setup, COARSE_INCREMENT_RATIOS[family])
+    return set_grid(longer, setup.points / COARSE_GRID_RATIOS[family])
 
 
-def expect_error(setup: Setup, family: Family, name: str) -> float:
-    """Return the largest relative error of a quantity that grid and increments are expected to leave."""
-    return KNOBS[setup.scene.kind].expect_error(setup, family, name)
+def expect_error(setup: Setup, family: Family, name: str, knobs: Sequence[str] = EXPECTED) -> float:
+    """Return the largest relative error of a quantity that knobs, grid and increments, are expected to leave."""
+    return KNOBS[setup.scene.kind].expect_error(setup, family, name, knobs)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 import xarray as xr
@@ -31,12 +31,15 @@ class Solution:
         Quantities, one value for each load or for the path as a whole.
     resolved : Array
         Pairs of neighbours at an edge of contact over points in contact, for each load; empty for cohesive laws.
+    increment_errors : dict from str to Array
+        Relative error that the increments of a slide leave in each quantity, as its states tell.
     """
 
     setup: Setup
     data: xr.Dataset
     values: dict[str, Array]
     resolved: Array
+    increment_errors: Mapping[str, Array] = field(default_factory=dict)
 
     @property
     def points(self) -> int:
@@ -64,19 +67,23 @@ class Solution:
         return self.points * int(self.data.get("points_y", 1))
 
 
-def _read_loads(data: xr.Dataset, names: Sequence[str]) -> tuple[dict[str, Array], Array]:
-    """Return quantities of each load at a hard wall, and how well its contacts are resolved."""
+def _read_loads(setup: Setup, data: xr.Dataset, names: Sequence[str]) -> Solution:
+    """Return a solution with quantities of each load at a hard wall, and how well its contacts are resolved."""
     values = {name: data[name].values.astype(float) for name in names}
-    return values, data.contact_edges.values / np.maximum(data.contact_points.values, 1)
+    return Solution(setup, data, values, data.contact_edges.values / np.maximum(data.contact_points.values, 1))
 
 
-def _read_path(data: xr.Dataset, names: Sequence[str]) -> tuple[dict[str, Array], Array]:
-    """Return quantities of a whole path of cohesive laws."""
+def _read_path(setup: Setup, data: xr.Dataset, names: Sequence[str]) -> Solution:
+    """Return a solution with quantities of a whole path of cohesive laws."""
     summary = summarise_paths(combine_runs([(data.drop_vars("seconds"), {"member": 0})]), names).isel(member=0)
-    return {name: np.atleast_1d(summary[name].values.astype(float)) for name in names}, np.empty(0)
+    values = {name: np.atleast_1d(summary[name].values.astype(float)) for name in names}
+    told = names if setup.scene.sliding else ()
+    sizes = {name: np.atleast_1d(summary.get(f"{name}_increment_error", np.nan)) for name in told}
+    errors = {name: size / np.abs(values[name]) for name, size in sizes.items() if size[0] < np.inf and values[name][0]}
+    return Solution(setup, data, values, np.empty(0), errors)
 
 
-Reader = Callable[[xr.Dataset, Sequence[str]], tuple[dict[str, Array], Array]]
+Reader = Callable[[Setup, xr.Dataset, Sequence[str]], Solution]
 READERS: dict[ProblemKind, Reader] = {ProblemKind.HARD_WALL: _read_loads, ProblemKind.COHESIVE: _read_path}
 
 
@@ -94,7 +101,7 @@ def solve_setup(setup: Setup, names: Sequence[str], coarse: Solution | None = No
     """
     reuse = Reuse(coarse=coarse.data) if coarse is not None and "pressure" in coarse.data else None
     data = follow_path(setup.with_options(accuracy=None), reuse)
-    return Solution(setup, data, *READERS[setup.scene.kind](data, names))
+    return READERS[setup.scene.kind](setup, data, names)
 
 
 def relative_difference(first: Solution, second: Solution, name: str) -> Array:
