@@ -1,9 +1,9 @@
-"""A rough adhesive surface pressed and pulled off in 100 steps, and again in steps of half the length.
+"""A rough adhesive surface pressed and pulled off in 100 steps, and again in steps of 1/2, 1/4 and 1/8 of the length.
 
     python benchmarks/adhesive_loop.py          # --quick: a coarse grid, and nothing here changes
 
-The surface is that of the study `adhesive_surface`, on twice its points along a side. The two loops should have the
-same loads, largest pull and dissipated energy but for the error of their steps.
+The surface is that of the study `adhesive_surface`, on twice its points along a side. The loops should have the same
+loads, largest pull, jumps and dissipated energy but for the error of their steps.
 """
 
 from __future__ import annotations
@@ -21,7 +21,10 @@ from contactsim.paths.options import Setup
 
 TURNS, STEPS = (-26.0, -2.0, -32.0), 100
 """Approaches (nm) at which the loop begins, turns and ends, and its steps."""
-SUMMARY = ("pull_off_force_unloading", "dissipated_work", "dissipated_work_increment_error")
+SUMMARY = (
+    *("pull_off_force_unloading", "dissipated_work", "dissipated_work_increment_error"),
+    *("max_jump_loading", "max_jump_unloading"),
+)
 TOLERANCE = 1e-4
 """Largest residual, over the strength."""
 
@@ -48,9 +51,10 @@ def measure_loop(case: dict, quick: bool) -> dict:
 
 
 def cases(quick: bool) -> Iterator[dict]:
-    """Weak and strong adhesion, each in steps and in halves of them."""
-    for work, division in itertools.product((0.03, 0.3), (1, 2)):
-        yield {"work": work, "points": 64 if quick else 512, "division": division}
+    """Weak and strong adhesion, each in steps and in parts of them."""
+    for work, divisions in ((0.03, (1, 2)), (0.3, (1, 2, 4, 8))):
+        for division in divisions[:1] if quick else divisions:
+            yield {"work": work, "points": 64 if quick else 512, "division": division}
 
 
 BENCHMARK = Benchmark(
@@ -67,6 +71,8 @@ BENCHMARK = Benchmark(
         "transforms": ("transforms", "{:.0f}"),
         "seconds": ("CPU s", "{:.3g}"),
         "jumps": ("steps with a jump", "{:.0f}"),
+        "max_jump_loading": ("largest jump, loading (nm)", "{:.3g}"),
+        "max_jump_unloading": ("largest jump, unloading (nm)", "{:.3g}"),
         "pressure_at_turn": ("pressure at the turn (GPa)", "{:.6f}"),
         "pull_off_force_unloading": ("largest pull (nN)", "{:.5g}"),
         "dissipated_work": ("dissipated energy (N/m)", "{:.3g}"),

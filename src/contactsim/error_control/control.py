@@ -165,8 +165,11 @@ def solve_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -
 
 
 def _next_coarser(runs: Sequence[Solution]) -> Solution:
-    """Return the last solved of some runs on a coarser grid than the final one's: increments alone may be refined."""
-    coarser = [run for run in runs if run.points < runs[-1].points]
+    """Return the last solved of some runs on a coarser grid than the final one's; the first where there is none.
+
+    Increments alone may be refined, and a companion's grid is not coarser where the surface allows no coarser one.
+    """
+    coarser = [run for run in runs if run.points < runs[-1].points] or runs[:1]
     return ([run for run in coarser if run.solved] or coarser)[-1]
 
 

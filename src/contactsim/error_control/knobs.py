@@ -38,8 +38,9 @@ WALL_TOLERANCES = (1e-4, 1e-2)
 """Least and largest tolerance at a hard wall, in grid steps."""
 MIN_POWER = 0.3
 """Powers of a knob below it count as none."""
-MAX_INCREMENTS = {PATH: 2.0, ROUGH_PATH: 4.0, SLIDE: 1.0}
-"""Longest increment of a path, in the laws' length: the longest that was measured."""
+MAX_INCREMENTS = {PATH: 2.0, ROUGH_PATH: 1.0, SLIDE: 1.0}
+"""Longest increment of a path, in the laws' length: at most the longest that was measured. On longer ones rough lines
+may come to another branch, a few per cent away."""
 PEAK_INCREMENTS = {SLIDE: 1.8}
 """Increment of a path, in the laws' length, that places a largest force well enough for an error of 1. It goes with the
 root of the error, as the force bends from state to state. Shorter increments hardly cost more, as slips are located."""

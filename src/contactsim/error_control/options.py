@@ -29,9 +29,9 @@ from contactsim.error_control.stepwise import begin_stepwise, has_relations
 from contactsim.errors import InputError
 from contactsim.paths.options import Setup
 
-SAFETY = {LINE: 0.5, SURFACE: 0.75, PATH: 0.7, ROUGH_PATH: 0.5, SLIDE: 0.7}
+SAFETY = {LINE: 0.45, SURFACE: 0.75, PATH: 0.6, ROUGH_PATH: 0.4, SLIDE: 0.7}
 """Part of an error that the grid is chosen for, as random scenes ask for."""
-COARSE_INCREMENT_RATIOS = {LINE: 1.0, SURFACE: 1.0, PATH: 3.0, ROUGH_PATH: 3.0, SLIDE: 1.0}
+COARSE_INCREMENT_RATIOS = {LINE: 1.0, SURFACE: 1.0, PATH: 3.0, ROUGH_PATH: 2.0, SLIDE: 1.0}
 """Increments of a coarse companion, over those of its run; of slides the same, as states tell what they leave."""
 COARSE_GRID_RATIOS = {LINE: 7.0, SURFACE: 3.0, PATH: 5.0, ROUGH_PATH: 6.0, SLIDE: 3.0}
 """Ratio of the grid that is expected to be needed to the companion's."""
