@@ -25,6 +25,8 @@ SUMMARY = (
     *("pull_off_force_unloading", "dissipated_work", "dissipated_work_increment_error"),
     *("max_jump_loading", "max_jump_unloading"),
 )
+LARGE_JUMPS = (5.0, 8.0)
+"""Motions (nm) beyond which the jumps of a step are counted apart."""
 TOLERANCE = 1e-4
 """Largest residual, over the strength."""
 
@@ -45,6 +47,7 @@ def measure_loop(case: dict, quick: bool) -> dict:
         "transforms": loop.transforms,
         "seconds": time.process_time() - begin,
         "jumps": int((data.jump > 0).sum()),
+        **{f"jumps_beyond_{size:g}": int((data.jump > size).sum()) for size in LARGE_JUMPS},
         "pressure_at_turn": float(data.mean_pressure.values[np.argmax(data.approach.values)]),
         **{name: float(values.item()) for name, values in loop.values.items()},
     }
@@ -61,7 +64,9 @@ BENCHMARK = Benchmark(
     "adhesive_loop",
     case=("work", "points", "division"),
     found=(
-        *("states", "failed", "transforms", "seconds", "jumps", "pressure_at_turn"),
+        *("states", "failed", "transforms", "seconds", "jumps"),
+        *(f"jumps_beyond_{size:g}" for size in LARGE_JUMPS),
+        "pressure_at_turn",
         *SUMMARY,
     ),
     table={
@@ -71,6 +76,7 @@ BENCHMARK = Benchmark(
         "transforms": ("transforms", "{:.0f}"),
         "seconds": ("CPU s", "{:.3g}"),
         "jumps": ("steps with a jump", "{:.0f}"),
+        **{f"jumps_beyond_{size:g}": (f"beyond {size:g} nm", "{:.0f}") for size in LARGE_JUMPS},
         "max_jump_loading": ("largest jump, loading (nm)", "{:.3g}"),
         "max_jump_unloading": ("largest jump, unloading (nm)", "{:.3g}"),
         "pressure_at_turn": ("pressure at the turn (GPa)", "{:.6f}"),
