@@ -45,8 +45,8 @@ def simulate(
     """Follow the load path of a scene.
 
     Grid, tolerance and increments are as given or, with an accuracy, chosen for it. The scene is then solved on two
-    grids, the error is estimated, and the grid is refined if need be: once where the errors of such scenes were
-    measured, else until the error is met, on six grids at most.
+    grids, the error is estimated, and the grid is refined if need be: at most twice where the errors of such scenes
+    were measured, else until the error is met, on six grids at most.
 
     Parameters
     ----------

@@ -13,8 +13,9 @@ import yaml
 import contactsim
 import contactsim as cs
 from contactsim import cli, dataset
-from contactsim.error_control import control, options
-from contactsim.error_control.control import Controlled, estimate_errors, solve_to_error
+from contactsim.error_control import control, knobs, options
+from contactsim.error_control.control import MAX_REFINEMENTS, Controlled, solve_to_error
+from contactsim.error_control.estimates import estimate_errors
 from contactsim.error_control.forecast import forecast_run, forecast_setup, forecast_to_error
 from contactsim.error_control.grids import GRID_FACTORS, MIN_POINTS, round_grid
 from contactsim.error_control.options import choose_options, coarsen, expect_error
@@ -30,7 +31,7 @@ from contactsim.error_control.scaling import (
     features,
     scene_family,
 )
-from contactsim.error_control.solution import solve_setup
+from contactsim.error_control.solution import Solution, solve_setup
 from contactsim.errors import InputError
 from contactsim.evaluation.calibration.sampling import draw_scene, read_trials
 from contactsim.evaluation.resources import predict_other_job, predict_run, summarise_jobs
@@ -257,6 +258,41 @@ def test_a_slide_beyond_all_that_was_measured_is_as_accurate_as_was_asked_for(na
     finer = solve_setup(last.with_increment(0.02, pressing=0.5).with_options(points=2 * last.points), QUANTITIES[SLIDE])
     assert result.met
     assert result.last.values["static_friction"] == pytest.approx(finer.values["static_friction"], rel=error)
+
+
+def a_slide(work: float = 3.0, length: float = 10.0) -> cs.Scene:
+    """A cylinder with a small contact that slides."""
+    law = cs.CohesiveZone(work, 0.8, 1.0, 1.0)
+    path = cs.approaches([-2.0, 0.0], 0.5) >> cs.sliding([0.0, length], 0.5, approach=0.0)
+    return cs.Scene(cs.HalfSpace(100.0, 0.3), cs.Cylinder(10000.0, 2500.0), law, path)
+
+
+def test_of_a_slide_whose_states_are_too_far_apart_the_increments_alone_are_refined(monkeypatch):
+    monkeypatch.setattr(knobs, "PEAK_INCREMENTS", {SLIDE: 10.0})
+    result = solve_to_error(Setup(a_slide(work=0.5)), 0.02)
+    coarse, first, second, *_ = [*result.before, result.last]
+    assert coarse.points < first.points == second.points
+    assert second.setup.scene.path.increment < first.setup.scene.path.increment
+    assert result.companion.points < result.last.points  # a run on the same grid would tell nothing of it
+    assert result.met
+
+
+def test_a_slide_that_ends_before_its_onset_has_no_static_friction_to_be_reached():
+    with refused("accuracy.quantities", "does not come so far"):
+        solve_to_error(Setup(a_slide(length=0.5)), 0.02)
+
+
+def test_a_run_is_refined_twice_at_most(monkeypatch):
+    monkeypatch.setattr(Controlled, "met", property(lambda self: False))
+    result = solve_to_error(drawn(LINE, 1).setup, 0.05)
+    assert result.refinements == len(result.before) - 1 == MAX_REFINEMENTS
+
+
+def test_where_neither_of_two_runs_is_solved_nothing_is_refined(monkeypatch):
+    monkeypatch.setattr(Solution, "solved", property(lambda self: False))
+    result = solve_to_error(setup_of(ASPERITY), 0.05)
+    assert not result.met
+    assert result.refinements == 0
 
 
 @pytest.mark.parametrize("family", [LINE, SURFACE])

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from contactsim import HalfSpace, HardWall, Scene, Sphere, pressures
-from contactsim.error_control import control, neglect
-from contactsim.error_control.control import DIFFERENCE_WEIGHT, Controlled, estimate_errors
+from contactsim.error_control import estimates, neglect
+from contactsim.error_control.control import Controlled
+from contactsim.error_control.estimates import DIFFERENCE_WEIGHT, estimate_errors
 from contactsim.error_control.scaling import features
 from contactsim.paths.options import RunOptions, Setup
 from contactsim.reference import hard_wall
@@ -30,7 +31,7 @@ def run(value, expected):
 
 
 def test_a_difference_of_second_order_gives_the_error_of_the_finer_run(monkeypatch):
-    monkeypatch.setattr(control, "expect_error", lambda setup, family, name, knobs: setup)
+    monkeypatch.setattr(estimates, "expect_error", lambda setup, family, name, knobs: setup)
     fine, coarse = run(1.003, 1e-4), run(1.012, 4e-4)  # of 1, with twice the spacing
     (error,) = estimate_errors(fine, coarse, SimpleNamespace(resolved={}), ["mean_gap"])["mean_gap"]
     assert error == pytest.approx(DIFFERENCE_WEIGHT * 0.003 / 1.003)
@@ -41,7 +42,7 @@ def test_a_difference_of_second_order_gives_the_error_of_the_finer_run(monkeypat
 
 
 def test_the_error_that_the_states_of_a_slide_tell_is_added_and_a_difference_counts_for_a_quarter_at_least(monkeypatch):
-    monkeypatch.setattr(control, "expect_error", lambda setup, family, name, knobs: setup)
+    monkeypatch.setattr(estimates, "expect_error", lambda setup, family, name, knobs: setup)
     fine, coarse = run(1.0, 1e-4), run(1.08, 1e-2)  # by the relation a hundredth of the difference would be left
     fine.increment_errors["mean_gap"] = np.array([0.003])
     (error,) = estimate_errors(fine, coarse, SimpleNamespace(resolved={}), ["mean_gap"])["mean_gap"]

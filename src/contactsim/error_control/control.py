@@ -4,7 +4,7 @@ Scenes without measured relations are solved as `stepwise` describes.
 
 The coarse companion is solved first. At a hard wall it shows how small the contacts are, so the grid of the run follows
 from it better than from any relation, and its pressure is where the cascade of the run begins. Along a path it has
-three times the increments too, so that its difference from the run is what all knobs together leave. The estimate
+longer increments too, so that its difference from the run is what all knobs together leave. The estimate
 is the larger of that difference, which shrinks with the order of convergence, and of the error expected of such a grid,
 as differences may vanish by chance. The states of a slide tell what its increments leave, so its companion has the same
 ones, and that error is added.
@@ -13,7 +13,6 @@ ones, and that error is added.
 from __future__ import annotations
 
 import logging
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -22,9 +21,9 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.contact.problem_kind import ProblemKind
-from contactsim.error_control.knobs import EXPECTED, GRID, grid_features
+from contactsim.error_control.estimates import describe_errors, estimate_errors, expected_errors
 from contactsim.error_control.measured import KEPT_QUANTITIES, even_part, is_measured
-from contactsim.error_control.options import SAFETY, choose_options, coarsen, expect_error, scale_increment, set_grid
+from contactsim.error_control.options import SAFETY, choose_options, coarsen, scale_increment, set_grid
 from contactsim.error_control.relations import Family, scaling_relations
 from contactsim.error_control.scaling import DEFAULT_GRID_ORDER, GRID_ORDERS, QUANTITIES, scene_family
 from contactsim.error_control.solution import Solution, relative_difference, solve_setup
@@ -35,22 +34,17 @@ from contactsim.paths.options import Setup
 logger = logging.getLogger(__name__)
 
 MAX_REFINEMENT = {1: 8.0, 2: 4.0}
-"""Largest ratio of a run's grid to its companion's, and of a refined grid to the first, by dimension."""
-DIFFERENCE_WEIGHT = 0.7
-"""Part of a difference that counts: the coarser run is often too coarse to be of any order, and makes it large."""
-LEAST_PART = 0.25
-"""Least part of a difference from a companion that the grid of a slide is taken to leave. On few points for a contact
-or a process zone they are of no order."""
+"""Largest ratio of a run's grid to its companion's, and of a refined grid to the one before, by dimension."""
 INCREMENT_SHARE = 0.3
 """Part of the error that increments may leave where the states tell what they leave."""
+INCREMENT_ORDERS = {"static_friction": 2.0}
+"""Powers of the increment with which the errors that states tell fall; others fall with the increment itself."""
 MAX_INCREMENT_DIVISION = 8.0
 """How many times shorter increments may become at once."""
-MIN_EDGE_SHARE = 1e-9
-"""Least part of a contact that counts as its edge."""
 BLIND_REFINEMENT = 2.0
-"""Ratio of a refined grid to the first where nothing is known of the error."""
-MIN_REFINEMENT = 1.25
-"""Smallest ratio of a refined grid to the first."""
+"""Ratio of a refined grid to the one before where nothing is known of the error."""
+MIN_REFINEMENT = 1.4
+"""Smallest ratio of a refined grid to the one before: from nearer grids an error is not told."""
 MAX_REFINEMENTS = 2
 """How often a run is refined at most."""
 
@@ -147,21 +141,21 @@ def solve_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -
         return Controlled(last, before, errors, error, before[-1], len(before) - 1)
     name_of_family = scene_family(first.scene)
     family, names = scaling_relations().families[name_of_family], tuple(quantities or QUANTITIES[name_of_family])
-    companion = COMPANIONS[setup.scene.kind](coarsen(first))
-    coarse = solve_setup(companion, names)
+    coarse = solve_setup(COMPANIONS[setup.scene.kind](coarsen(first)), names)
     last = solve_setup(_follow_companion(first, coarse, family, names, error), names, coarse)
     names = keep_present(coarse, last, names, quantities)
     errors = estimate_errors(last, coarse, family, names)
     logger.info("on %d points, after %d: %s", last.points, coarse.points, describe_errors(errors, error))
-    runs = [coarse, last]
-    while len(runs) < 2 + MAX_REFINEMENTS and any(not (values <= error).all() for values in errors.values()):
-        previous = runs[-1]
-        last = solve_setup(_refine(previous, errors, error), names, coarse)
-        names = keep_present(previous, last, names, quantities)
+    runs, found = [coarse, last], Controlled(last, [coarse], errors, error, coarse)
+    while not found.met and found.refinements < MAX_REFINEMENTS and (runs[-1].solved or runs[-2].solved):
+        last = solve_setup(_refine(runs[-1], errors, error), names, coarse)
+        names = keep_present(runs[-1], last, names, quantities)
         runs.append(last)
-        errors = estimate_errors(last, _next_coarser(runs), family, names)
+        companion = _next_coarser(runs)
+        errors = estimate_errors(last, companion, family, names)
         logger.info("refined to %d points: %s", last.points, describe_errors(errors, error))
-    return Controlled(last, runs[:-1], errors, error, _next_coarser(runs), len(runs) - 2)
+        found = Controlled(last, runs[:-1], errors, error, companion, len(runs) - 2)
+    return found
 
 
 def _next_coarser(runs: Sequence[Solution]) -> Solution:
@@ -194,49 +188,13 @@ COMPANIONS: dict[ProblemKind, Callable[[Setup], Setup]] = {
 """Options of a companion: at a hard wall its fields are kept, from which the run begins."""
 
 
-def estimate_errors(fine: Solution, coarse: Solution, family: Family, names: Sequence[str]) -> dict[str, Array]:
-    """Return relative errors of a run by quantity.
-
-    The larger counts of what its knobs are expected to leave and its difference from a coarser run, which shrinks as
-    the relations say that errors do between the two. What the states of a run tell of its increments comes on top.
-    """
-    errors = {}
-    for name in names:
-        expected, expected_before = _expected_errors(fine, family, name), _expected_errors(coarse, family, name)
-        part = DIFFERENCE_WEIGHT * expected / np.maximum(expected_before - expected, expected)
-        if name in fine.increment_errors:
-            part = np.maximum(part, LEAST_PART)
-        changes = part * relative_difference(fine, coarse, name)
-        errors[name] = np.maximum(changes, expected) + fine.increment_errors.get(name, 0.0)
-    return errors
-
-
-def _expected_errors(run: Solution, family: Family, name: str) -> Array:
-    """Return the relative error that the grid leaves, and the increments where no state tells it.
-
-    Where the contacts of a solution have been seen, it is the geometric mean of what is known of such scenes and of
-    what follows from how well the contacts are resolved.
-    """
-    if name in family.resolved:
-        places = grid_features(run.setup.scene, run.points)
-        seen = [
-            numbers | {"resolved": math.log(max(share, MIN_EDGE_SHARE))}
-            for numbers, share in zip(places, run.resolved, strict=True)
-        ]
-        return np.array(
-            [math.sqrt(family.resolved[name](numbers) * family.errors["points"][name](numbers)) for numbers in seen]
-        )
-    knobs = GRID if name in run.increment_errors else EXPECTED
-    return np.array([expect_error(run.setup, family, name, knobs)])
-
-
 def _follow_companion(setup: Setup, companion: Solution, family: Family, names: Sequence[str], error: float) -> Setup:
     """Return the setup of a run after its companion: at a hard wall on the grid that the contacts found there need."""
     if not companion.resolved.size:
         return setup
     refinement, wanted = 1.0, SAFETY[scene_family(setup.scene)] * error
     for name in names:
-        expected = _expected_errors(companion, family, name).max()
+        expected = expected_errors(companion, family, name).max()
         refinement = max(refinement, (expected / wanted) ** (1 / GRID_ORDERS.get(name, DEFAULT_GRID_ORDER)))
     return set_grid(setup, companion.points * min(max(refinement, 2.0), _max_refinement(companion)), error)
 
@@ -247,11 +205,12 @@ def _refine(run: Solution, errors: dict[str, Array], error: float) -> Setup:
     Where no state tells what the increments leave, they are halved.
     """
     wanted, told = SAFETY[scene_family(run.setup.scene)] * error, run.increment_errors
-    refinement, division = 1.0, 1.0 if set(errors) <= set(told) else 2.0
+    refinement = 1.0
+    division = 1.0 if all(name in told for name in errors) else 2.0
     for name, values in errors.items():
         of_increments = float(told[name].max()) if name in told else 0.0
         of_grid = float(values.max()) - of_increments
-        division = max(division, math.sqrt(of_increments / (INCREMENT_SHARE * error)))
+        division = max(division, (of_increments / (INCREMENT_SHARE * error)) ** (1 / INCREMENT_ORDERS.get(name, 1.0)))
         order = GRID_ORDERS.get(name, DEFAULT_GRID_ORDER)
         refinement = max(refinement, BLIND_REFINEMENT if np.isinf(of_grid) else (of_grid / wanted) ** (1 / order))
     setup = scale_increment(run.setup, 1 / min(division, MAX_INCREMENT_DIVISION))
@@ -263,8 +222,3 @@ def _refine(run: Solution, errors: dict[str, Array], error: float) -> Setup:
 def _max_refinement(run: Solution) -> float:
     """Return the largest ratio of the next grid's points to those of a run, along x."""
     return MAX_REFINEMENT[len(run.setup.scene.lengths)]
-
-
-def describe_errors(errors: dict[str, Array], wanted: float) -> str:
-    """Return the estimated errors in words."""
-    return ", ".join(f"{name} to {values.max():.2g} of {wanted:g}" for name, values in errors.items())

@@ -15,7 +15,7 @@ from functools import cache
 import numpy as np
 
 from contactsim.durations import duration_text
-from contactsim.error_control.knobs import PATH_TOLERANCE, grid_features
+from contactsim.error_control.knobs import EXPECTED, GRID, PATH_TOLERANCE, grid_features
 from contactsim.error_control.measured import is_measured
 from contactsim.error_control.options import choose_options, coarsen, expect_error
 from contactsim.error_control.relations import Family, scaling_relations
@@ -133,7 +133,9 @@ def forecast_setup(setup: Setup, quantities: Sequence[str] = ()) -> Forecast:
 
 def _expected_error(setup: Setup, family: Family, name: str) -> float:
     """Return the expected relative error of a quantity; NaN for measured heights, whose spacing decides it."""
-    return math.nan if is_measured(setup.scene) else expect_error(setup, family, name)
+    if is_measured(setup.scene):
+        return math.nan
+    return expect_error(setup, family, name, GRID if setup.scene.sliding else EXPECTED)
 
 
 def step_features(setup: Setup) -> dict[str, float]:

@@ -42,10 +42,10 @@ MAX_INCREMENTS = {PATH: 2.0, ROUGH_PATH: 1.0, SLIDE: 1.0}
 """Longest increment of a path, in the laws' length: at most the longest that was measured. On longer ones rough lines
 may come to another branch, a few per cent away."""
 PEAK_INCREMENTS = {SLIDE: 1.8}
-"""Increment of a path, in the laws' length, that places a largest force well enough for an error of 1. It goes with the
-root of the error, as the force bends from state to state. Shorter increments hardly cost more, as slips are located."""
+"""Longest increment of a path, in the laws' length, over the root of the wanted error. A largest force between states
+is missed by the square of the increment. Shorter increments hardly cost more, as slips are located."""
 CONTACT_POINTS = {SLIDE: 0.6}
-"""Points for the half-width of the contact for an error of 1; they go with the root of the error, from below."""
+"""Least points for the half-width of the contact, times the root of the wanted error."""
 MIN_PRESSING_INCREMENT = 0.5
 """Least increment (nm) of the path that presses before a slide: that of the slides that were measured."""
 
@@ -130,8 +130,8 @@ class PathKnobs:
         return setup.with_options(tolerance=min(PATH_TOLERANCE, error * PATH_TOLERANCE / 1e-2))
 
     def scale_increment(self, setup: Setup, factor: float) -> Setup:
-        """Return the setup with the increments of its slide or, without one, of its path times a factor."""
-        return setup.with_increment(path_increment(setup.scene) * factor)
+        """Return the setup with the increments of its slide or path times a factor, in three digits."""
+        return setup.with_increment(float(f"{path_increment(setup.scene) * factor:.3g}"))
 
     def choose_tolerance(self, setup: Setup, family: Family, names: Sequence[str], error: float) -> Setup:
         """Return the setup itself: the tolerance has been chosen with the increments."""

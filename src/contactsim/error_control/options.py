@@ -98,12 +98,12 @@ def scale_increment(setup: Setup, factor: float) -> Setup:
 
 
 def coarsen(setup: Setup) -> Setup:
-    """Return the coarse companion of a setup: a coarser grid and longer increments."""
+    """Return the coarse companion of a setup: a coarser grid and, on paths without a slide, longer increments."""
     if is_measured(setup.scene):
         return sample_every_second(setup)
     family = scene_family(setup.scene)
-    longer = scale_increment(setup, COARSE_INCREMENT_RATIOS[family])
-    return set_grid(longer, setup.points / COARSE_GRID_RATIOS[family])
+    setup = scale_increment(setup, COARSE_INCREMENT_RATIOS[family])
+    return set_grid(setup, setup.points / COARSE_GRID_RATIOS[family])
 
 
 def expect_error(setup: Setup, family: Family, name: str, knobs: Sequence[str] = EXPECTED) -> float:

@@ -75,11 +75,15 @@ def _read_loads(setup: Setup, data: xr.Dataset, names: Sequence[str]) -> Solutio
 
 def _read_path(setup: Setup, data: xr.Dataset, names: Sequence[str]) -> Solution:
     """Return a solution with quantities of a whole path of cohesive laws."""
+    if not is_solved(data.status).any():
+        return Solution(setup, data, {name: np.full(1, np.nan) for name in names}, np.empty(0))
     summary = summarise_paths(combine_runs([(data.drop_vars("seconds"), {"member": 0})]), names).isel(member=0)
     values = {name: np.atleast_1d(summary[name].values.astype(float)) for name in names}
-    told = names if setup.scene.sliding else ()
-    sizes = {name: np.atleast_1d(summary.get(f"{name}_increment_error", np.nan)) for name in told}
-    errors = {name: size / np.abs(values[name]) for name, size in sizes.items() if size[0] < np.inf and values[name][0]}
+    errors = {}
+    for name in names if setup.scene.sliding else ():
+        size = np.atleast_1d(summary.get(f"{name}_increment_error", np.nan))
+        if np.isfinite(size).all():
+            errors[name] = np.divide(size, np.abs(values[name]), out=np.zeros(1), where=size > 0)
     return Solution(setup, data, values, np.empty(0), errors)
 
 
