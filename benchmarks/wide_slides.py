@@ -21,7 +21,7 @@ from contactsim.errors import InputError
 from contactsim.paths.options import Setup
 from contactsim.paths.requested import Requested
 
-SEED, SCENES = 20261128, 60
+SEED, SCENES = 592356, 60
 ERRORS = (0.005, 0.01, 0.02, 0.05)
 """Wanted errors, in turns."""
 NAME = "static_friction"

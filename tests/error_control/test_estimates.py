@@ -33,20 +33,21 @@ def run(value, expected):
 def test_a_difference_of_second_order_gives_the_error_of_the_finer_run(monkeypatch):
     monkeypatch.setattr(estimates, "expect_error", lambda setup, family, name, knobs: setup)
     fine, coarse = run(1.003, 1e-4), run(1.012, 4e-4)  # of 1, with twice the spacing
-    (error,) = estimate_errors(fine, coarse, SimpleNamespace(resolved={}), ["mean_gap"])["mean_gap"]
+    (error,) = estimate_errors(fine, [coarse], SimpleNamespace(resolved={}), ["mean_gap"])["mean_gap"]
     assert error == pytest.approx(DIFFERENCE_WEIGHT * 0.003 / 1.003)
-    (expected,) = estimate_errors(run(1.0, 1e-4), run(1.0, 4e-4), SimpleNamespace(resolved={}), ["mean_gap"])[
+    (expected,) = estimate_errors(run(1.0, 1e-4), [run(1.0, 4e-4)], SimpleNamespace(resolved={}), ["mean_gap"])[
         "mean_gap"
     ]
     assert expected == 1e-4  # a difference may vanish by chance
 
 
-def test_the_error_that_the_states_of_a_slide_tell_is_added_and_a_difference_counts_for_a_quarter_at_least(monkeypatch):
+def test_of_a_slide_all_coarser_runs_count_and_the_error_that_its_states_tell_is_added(monkeypatch):
     monkeypatch.setattr(estimates, "expect_error", lambda setup, family, name, knobs: setup)
-    fine, coarse = run(1.0, 1e-4), run(1.08, 1e-2)  # by the relation a hundredth of the difference would be left
+    fine, coarsest, coarse = run(1.0, 1e-4), run(1.14, 1e-2), run(1.0, 1e-3)  # the last two agree by chance
+    fine.points, coarsest.points, coarse.points = 64, 16, 32
     fine.increment_errors["mean_gap"] = np.array([0.003])
-    (error,) = estimate_errors(fine, coarse, SimpleNamespace(resolved={}), ["mean_gap"])["mean_gap"]
-    assert error == pytest.approx(0.08 / 4 + 0.003)
+    (error,) = estimate_errors(fine, [coarsest, coarse], SimpleNamespace(resolved={}), ["mean_gap"])["mean_gap"]
+    assert error == pytest.approx(0.14 / (4**1.5 - 1) + 0.003)
 
 
 def test_the_expected_area_of_a_sphere_is_that_of_hertz():

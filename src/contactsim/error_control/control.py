@@ -23,7 +23,14 @@ from contactsim import dataset
 from contactsim.contact.problem_kind import ProblemKind
 from contactsim.error_control.estimates import describe_errors, estimate_errors, expected_errors
 from contactsim.error_control.measured import KEPT_QUANTITIES, even_part, is_measured
-from contactsim.error_control.options import SAFETY, choose_options, coarsen, scale_increment, set_grid
+from contactsim.error_control.options import (
+    SAFETY,
+    SECOND_COARSE_GRID_RATIOS,
+    choose_options,
+    coarsen,
+    scale_increment,
+    set_grid,
+)
 from contactsim.error_control.relations import Family, scaling_relations
 from contactsim.error_control.scaling import DEFAULT_GRID_ORDER, GRID_ORDERS, QUANTITIES, scene_family
 from contactsim.error_control.solution import Solution, relative_difference, solve_setup
@@ -142,29 +149,33 @@ def solve_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -
     name_of_family = scene_family(first.scene)
     family, names = scaling_relations().families[name_of_family], tuple(quantities or QUANTITIES[name_of_family])
     coarse = solve_setup(COMPANIONS[setup.scene.kind](coarsen(first)), names)
+    runs = [coarse]
+    if name_of_family in SECOND_COARSE_GRID_RATIOS:
+        runs.append(solve_setup(set_grid(first, first.points / SECOND_COARSE_GRID_RATIOS[name_of_family]), names))
     last = solve_setup(_follow_companion(first, coarse, family, names, error), names, coarse)
-    names = keep_present(coarse, last, names, quantities)
-    errors = estimate_errors(last, coarse, family, names)
+    names = keep_present(runs[-1], last, names, quantities)
+    runs.append(last)
+    errors = estimate_errors(last, _coarser_runs(runs), family, names)
     logger.info("on %d points, after %d: %s", last.points, coarse.points, describe_errors(errors, error))
-    runs, found = [coarse, last], Controlled(last, [coarse], errors, error, coarse)
+    found = Controlled(last, runs[:-1], errors, error, _coarser_runs(runs)[-1])
     while not found.met and found.refinements < MAX_REFINEMENTS and (runs[-1].solved or runs[-2].solved):
         last = solve_setup(_refine(runs[-1], errors, error), names, coarse)
         names = keep_present(runs[-1], last, names, quantities)
         runs.append(last)
-        companion = _next_coarser(runs)
-        errors = estimate_errors(last, companion, family, names)
+        coarser = _coarser_runs(runs)
+        errors = estimate_errors(last, coarser, family, names)
         logger.info("refined to %d points: %s", last.points, describe_errors(errors, error))
-        found = Controlled(last, runs[:-1], errors, error, companion, len(runs) - 2)
+        found = Controlled(last, runs[:-1], errors, error, coarser[-1], found.refinements + 1)
     return found
 
 
-def _next_coarser(runs: Sequence[Solution]) -> Solution:
-    """Return the last solved of some runs on a coarser grid than the final one's; the first where there is none.
+def _coarser_runs(runs: Sequence[Solution]) -> list[Solution]:
+    """Return the solved ones of some runs on coarser grids than the final one's; the first run where there is none.
 
     Increments alone may be refined, and a companion's grid is not coarser where the surface allows no coarser one.
     """
-    coarser = [run for run in runs if run.points < runs[-1].points] or runs[:1]
-    return ([run for run in coarser if run.solved] or coarser)[-1]
+    coarser = [run for run in runs if run.points < runs[-1].points] or list(runs[:1])
+    return [run for run in coarser if run.solved] or coarser
 
 
 def _solve_measured(setup: Setup, error: float, quantities: Sequence[str]) -> Controlled:

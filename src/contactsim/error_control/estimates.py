@@ -15,28 +15,39 @@ from contactsim.grid import Array
 
 DIFFERENCE_WEIGHT = 0.7
 """Part of a difference that counts: the coarser run is often too coarse to be of any order, and makes it large."""
-LEAST_PART = 0.25
-"""Least part of a difference from a companion that the grid of a slide is taken to leave. On few points for a contact
-or a process zone its error falls by no fixed power of the spacing."""
+SLIDE_ORDER = 1.5
+"""Largest power of the spacing with which errors of a slide are taken to fall. On few points for a contact or a process
+zone they fall by no fixed power."""
 MIN_EDGE_SHARE = 1e-9
 """Least part of a contact that counts as its edge."""
 
 
-def estimate_errors(fine: Solution, coarse: Solution, family: Family, names: Sequence[str]) -> dict[str, Array]:
+def estimate_errors(
+    fine: Solution, coarser: Sequence[Solution], family: Family, names: Sequence[str]
+) -> dict[str, Array]:
     """Return relative errors of a run by quantity.
 
-    The larger counts of what its knobs are expected to leave and its difference from a coarser run, which shrinks as
-    the relations say that errors do between the two. What the states of a run tell of its increments comes on top.
+    The larger counts of what its knobs are expected to leave and its difference from the last coarser run, which
+    shrinks as the relations say that errors do between the two. What the states of a slide tell of its increments comes
+    on top, and all coarser runs count: any two slides may agree by chance.
     """
     errors = {}
     for name in names:
-        expected, expected_before = expected_errors(fine, family, name), expected_errors(coarse, family, name)
-        part = DIFFERENCE_WEIGHT * expected / np.maximum(expected_before - expected, expected)
-        if name in fine.increment_errors:
-            part = np.maximum(part, LEAST_PART)
-        changes = part * relative_difference(fine, coarse, name)
-        errors[name] = np.maximum(changes, expected) + fine.increment_errors.get(name, 0.0)
+        expected, told = expected_errors(fine, family, name), fine.increment_errors.get(name)
+        if told is None:
+            expected_before = expected_errors(coarser[-1], family, name)
+            part = DIFFERENCE_WEIGHT * expected / np.maximum(expected_before - expected, expected)
+            errors[name] = np.maximum(part * relative_difference(fine, coarser[-1], name), expected)
+        else:
+            changes = [relative_difference(fine, run, name) * slide_part(fine, run) for run in coarser]
+            errors[name] = np.maximum(np.max(changes, axis=0), expected) + told
     return errors
+
+
+def slide_part(fine: Solution, coarse: Solution) -> float:
+    """Return the part of the difference of two slides that the finer grid leaves; 1 for the same grid."""
+    shrinkage = (fine.points / coarse.points) ** SLIDE_ORDER
+    return 1 / (shrinkage - 1) if shrinkage > 1 else 1.0
 
 
 def expected_errors(run: Solution, family: Family, name: str) -> Array:

@@ -37,6 +37,10 @@ COARSE_GRID_RATIOS = {LINE: 7.0, SURFACE: 3.0, PATH: 5.0, ROUGH_PATH: 6.0, SLIDE
 """Ratio of the grid that is expected to be needed to the companion's."""
 
 
+SECOND_COARSE_GRID_RATIOS = {SLIDE: 1.7}
+"""The same of a second companion."""
+
+
 def choose_options(setup: Setup, error: float, quantities: Sequence[str] = ()) -> Setup:
     """Choose grid, tolerance and increments for a relative error.
 
