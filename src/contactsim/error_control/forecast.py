@@ -17,7 +17,13 @@ import numpy as np
 from contactsim.durations import duration_text
 from contactsim.error_control.knobs import EXPECTED, GRID, PATH_TOLERANCE, grid_features
 from contactsim.error_control.measured import is_measured
-from contactsim.error_control.options import choose_options, coarsen, expect_error
+from contactsim.error_control.options import (
+    SECOND_COARSE_GRID_RATIOS,
+    choose_options,
+    coarsen,
+    expect_error,
+    set_grid,
+)
 from contactsim.error_control.relations import Family, scaling_relations
 from contactsim.error_control.scaling import QUANTITIES, scene_family
 from contactsim.errors import InputError
@@ -150,13 +156,19 @@ def step_features(setup: Setup) -> dict[str, float]:
 
 
 def forecast_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -> Forecast:
-    """Forecast a run to a wanted error, its companion included, in transforms of its own grid."""
+    """Forecast a run to a wanted error, its companions included, in transforms of its own grid."""
     chosen = choose_options(setup, error, quantities)
-    companion = coarsen(chosen)
-    run, before = forecast_setup(chosen, quantities), forecast_setup(companion, quantities)
-    coarse_run_transforms = before.transforms * companion.size / chosen.size
-    part = scaling_relations().families[scene_family(chosen.scene)].warm_start
-    return replace(run, transforms=part * run.transforms + coarse_run_transforms, units=part * run.units + before.units)
+    family = scene_family(chosen.scene)
+    companions = [coarsen(chosen)]
+    if family in SECOND_COARSE_GRID_RATIOS:
+        companions.append(set_grid(chosen, chosen.points / SECOND_COARSE_GRID_RATIOS[family]))
+    run, part = forecast_setup(chosen, quantities), scaling_relations().families[family].warm_start
+    transforms, units = part * run.transforms, part * run.units
+    for companion in companions:
+        before = forecast_setup(companion, quantities)
+        transforms += before.transforms * companion.size / chosen.size
+        units += before.units
+    return replace(run, transforms=transforms, units=units)
 
 
 @cache
