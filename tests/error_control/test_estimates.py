@@ -45,8 +45,11 @@ def test_of_a_slide_all_coarser_runs_count_and_the_error_that_its_states_tell_is
     monkeypatch.setattr(estimates, "expect_error", lambda setup, family, name, knobs: setup)
     fine, coarsest, coarse = run(1.0, 1e-4), run(1.14, 1e-2), run(1.0, 1e-3)  # the last two agree by chance
     fine.points, coarsest.points, coarse.points = 64, 16, 32
+    without = run(np.nan, 1e-1)
     fine.increment_errors["mean_gap"] = np.array([0.003])
-    (error,) = estimate_errors(fine, [coarsest, coarse], SimpleNamespace(resolved={}), ["mean_gap"])["mean_gap"]
+    (error,) = estimate_errors(fine, [without, coarsest, coarse], SimpleNamespace(resolved={}), ["mean_gap"])[
+        "mean_gap"
+    ]
     assert error == pytest.approx(0.14 / (4**1.5 - 1) + 0.003)
 
 

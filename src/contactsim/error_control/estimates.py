@@ -29,7 +29,7 @@ def estimate_errors(
 
     The larger counts of what its knobs are expected to leave and its difference from the last coarser run, which
     shrinks as the relations say that errors do between the two. What the states of a slide tell of its increments comes
-    on top, and all coarser runs count: any two slides may agree by chance.
+    on top, and all coarser runs that have the quantity count: any two slides may agree by chance.
     """
     errors = {}
     for name in names:
@@ -39,7 +39,8 @@ def estimate_errors(
             part = DIFFERENCE_WEIGHT * expected / np.maximum(expected_before - expected, expected)
             errors[name] = np.maximum(part * relative_difference(fine, coarser[-1], name), expected)
         else:
-            changes = [relative_difference(fine, run, name) * slide_part(fine, run) for run in coarser]
+            telling = [run for run in coarser if np.isfinite(run.values[name]).all()] or coarser
+            changes = [relative_difference(fine, run, name) * slide_part(fine, run) for run in telling]
             errors[name] = np.maximum(np.max(changes, axis=0), expected) + told
     return errors
 
