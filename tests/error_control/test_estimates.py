@@ -47,9 +47,7 @@ def test_of_a_slide_all_coarser_runs_count_and_the_error_that_its_states_tell_is
     fine.points, coarsest.points, coarse.points = 64, 16, 32
     without = run(np.nan, 1e-1)
     fine.increment_errors["mean_gap"] = np.array([0.003])
-    (error,) = estimate_errors(fine, [without, coarsest, coarse], SimpleNamespace(resolved={}), ["mean_gap"])[
-        "mean_gap"
-    ]
+    errors = estimate_errors(fine, [without, coarsest, coarse], SimpleNamespace(resolved={}), ["mean_gap"])
     assert errors["mean_gap"] == pytest.approx(0.14 / (4**1.5 - 1) + 0.003)
 
 
