@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 import yaml
 
-import contactsim
 import contactsim as cs
 from contactsim import cli, dataset
 from contactsim.error_control import control, knobs, options
@@ -213,17 +212,17 @@ def test_an_adhesive_asperity_is_as_accurate_as_was_asked_for():
     assert set(result.errors) == set(QUANTITIES[PATH])
 
 
-CYLINDER = contactsim.Scene(
-    contactsim.HalfSpace(1.0),
-    contactsim.Cylinder(8000.0, 1e4),
-    contactsim.NormalCohesiveZone(work_of_separation=0.05, normal_length=0.5),
-    contactsim.approaches([-9.0, 8.0], 0.1),
+CYLINDER = cs.Scene(
+    cs.HalfSpace(1.0),
+    cs.Cylinder(8000.0, 1e4),
+    cs.NormalCohesiveZone(work_of_separation=0.05, normal_length=0.5),
+    cs.approaches([-9.0, 8.0], 0.1),
 )
 
 
 def test_a_dataset_holds_each_quantity_beside_its_error_and_warns_of_the_run_that_counts_alone(caplog):
     with caplog.at_level(logging.WARNING):
-        data = contactsim.simulate(CYLINDER, accuracy=0.1)
+        data = cs.simulate(CYLINDER, accuracy=0.1)
     for name in QUANTITIES[PATH]:
         assert data[f"{name}_estimated_error"] <= 0.1 * abs(data[name])
     assert data.final_contact_length == pytest.approx(float(data.contact_length[-1]), rel=1e-12)
@@ -232,12 +231,12 @@ def test_a_dataset_holds_each_quantity_beside_its_error_and_warns_of_the_run_tha
 
 
 def test_a_quantity_that_a_path_does_not_have_is_left_out_or_refused_if_it_was_asked_for():
-    pressed = replace(CYLINDER, path=contactsim.approaches([4.0, 8.0], 0.1))  # in contact from the beginning
-    data = contactsim.simulate(pressed, accuracy=0.1)
+    pressed = replace(CYLINDER, path=cs.approaches([4.0, 8.0], 0.1))  # in contact from the beginning
+    data = cs.simulate(pressed, accuracy=0.1)
     assert "final_contact_length_estimated_error" in data
     assert "pull_off_load_loading_estimated_error" not in data
     with refused("accuracy.quantities", "does not come so far, or does not turn back"):
-        contactsim.simulate(pressed, accuracy=0.1, quantities=["pull_off_load_loading"])
+        cs.simulate(pressed, accuracy=0.1, quantities=["pull_off_load_loading"])
 
 
 SLIDES = {
@@ -379,7 +378,7 @@ def test_a_forecast_is_near_what_a_run_takes(family):
 
 
 def test_a_forecast_is_printed_in_words():
-    text = str(contactsim.estimate_cost(CYLINDER, accuracy=0.01))
+    text = str(cs.estimate_cost(CYLINDER, accuracy=0.01))
     heads = [line.split()[0] for line in text.splitlines()]
     assert heads[:6] == ["grid", "unknowns", "transforms", "time", "memory", "error"]
     assert "e+" not in text

@@ -4,14 +4,15 @@ Scenes without measured relations are solved as `stepwise` describes.
 
 The coarse companion is solved first. At a hard wall it shows how small the contacts are, so the grid of the run follows
 from it better than from any relation, and its pressure is where the cascade of the run begins. Along a path it has
-longer increments too, so that its difference from the run is what all knobs together leave. The estimate
-is the larger of that difference, which shrinks with the order of convergence, and of the error expected of such a grid,
-as differences may vanish by chance. The states of a slide tell what its increments leave, so its companion has the same
-ones, and that error is added.
+longer increments too, so that its difference from the run is what all knobs together leave. The estimate is the larger
+of that difference, which shrinks with the order of convergence, and of the error expected of such a grid, as a
+difference may vanish by chance. The states of a slide tell what its increments leave. That error is added, and both
+companions of a slide have the increments of the run.
 """
 
 from __future__ import annotations
 
+import itertools
 import logging
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -25,7 +26,7 @@ from contactsim.error_control.estimates import describe_errors, estimate_errors,
 from contactsim.error_control.measured import KEPT_QUANTITIES, even_part, is_measured
 from contactsim.error_control.options import (
     SAFETY,
-    SECOND_COARSE_GRID_RATIOS,
+    choose_companions,
     choose_options,
     coarsen,
     scale_increment,
@@ -146,27 +147,27 @@ def solve_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -
     if not has_relations(first.scene):
         (*before, last), errors = solve_stepwise(first, error, quantities)
         return Controlled(last, before, errors, error, before[-1], len(before) - 1)
+    return _solve_by_relations(first, error, quantities)
+
+
+def _solve_by_relations(first: Setup, error: float, quantities: Sequence[str]) -> Controlled:
+    """Solve a setup that relations chose after its companions, and refine it while its estimate is too large."""
     name_of_family = scene_family(first.scene)
     family, names = scaling_relations().families[name_of_family], tuple(quantities or QUANTITIES[name_of_family])
-    coarse = solve_setup(COMPANIONS[setup.scene.kind](coarsen(first)), names)
-    runs = [coarse]
-    if name_of_family in SECOND_COARSE_GRID_RATIOS:
-        runs.append(solve_setup(set_grid(first, first.points / SECOND_COARSE_GRID_RATIOS[name_of_family]), names))
-    last = solve_setup(_follow_companion(first, coarse, family, names, error), names, coarse)
-    names = keep_present(runs[-1], last, names, quantities)
-    runs.append(last)
-    errors = estimate_errors(last, _coarser_runs(runs), family, names)
-    logger.info("on %d points, after %d: %s", last.points, coarse.points, describe_errors(errors, error))
-    found = Controlled(last, runs[:-1], errors, error, _coarser_runs(runs)[-1])
-    while not found.met and found.refinements < MAX_REFINEMENTS and (runs[-1].solved or runs[-2].solved):
-        last = solve_setup(_refine(runs[-1], errors, error), names, coarse)
-        names = keep_present(runs[-1], last, names, quantities)
-        runs.append(last)
+    keep = COMPANIONS[first.scene.kind]
+    runs = [solve_setup(keep(companion), names) for companion in choose_companions(first)]
+    setup = _follow_companion(first, runs[0], family, names, error)
+    for refinements in itertools.count():
+        runs.append(solve_setup(setup, names, runs[0]))
+        names = keep_present(runs[-2], runs[-1], names, quantities)
         coarser = _coarser_runs(runs)
-        errors = estimate_errors(last, coarser, family, names)
-        logger.info("refined to %d points: %s", last.points, describe_errors(errors, error))
-        found = Controlled(last, runs[:-1], errors, error, coarser[-1], found.refinements + 1)
-    return found
+        errors = estimate_errors(runs[-1], coarser, family, names)
+        logger.info("on %d points, after %d: %s", runs[-1].points, coarser[-1].points, describe_errors(errors, error))
+        outcome = Controlled(runs[-1], runs[:-1], errors, error, coarser[-1], refinements)
+        if outcome.met or refinements == MAX_REFINEMENTS or not any(run.solved for run in runs[-2:]):
+            break
+        setup = _refine(runs[-1], errors, error)
+    return outcome
 
 
 def _coarser_runs(runs: Sequence[Solution]) -> list[Solution]:
@@ -215,11 +216,11 @@ def _refine(run: Solution, errors: dict[str, Array], error: float) -> Setup:
 
     Where no state tells what the increments leave, they are halved.
     """
-    wanted, told = SAFETY[scene_family(run.setup.scene)] * error, run.increment_errors
+    wanted, increment_errors = SAFETY[scene_family(run.setup.scene)] * error, run.increment_errors
     refinement = 1.0
-    division = 1.0 if all(name in told for name in errors) else 2.0
+    division = 1.0 if all(name in increment_errors for name in errors) else 2.0
     for name, values in errors.items():
-        of_increments = float(told[name].max()) if name in told else 0.0
+        of_increments = float(increment_errors[name].max()) if name in increment_errors else 0.0
         of_grid = float(values.max()) - of_increments
         division = max(division, (of_increments / (INCREMENT_SHARE * error)) ** (1 / INCREMENT_ORDERS.get(name, 1.0)))
         order = GRID_ORDERS.get(name, DEFAULT_GRID_ORDER)

@@ -33,19 +33,19 @@ def estimate_errors(
     """
     errors = {}
     for name in names:
-        expected, told = expected_errors(fine, family, name), fine.increment_errors.get(name)
-        if told is None:
+        expected, increment_error = expected_errors(fine, family, name), fine.increment_errors.get(name)
+        if increment_error is None:
             expected_before = expected_errors(coarser[-1], family, name)
             part = DIFFERENCE_WEIGHT * expected / np.maximum(expected_before - expected, expected)
             errors[name] = np.maximum(part * relative_difference(fine, coarser[-1], name), expected)
         else:
-            telling = [run for run in coarser if np.isfinite(run.values[name]).all()] or coarser
-            changes = [relative_difference(fine, run, name) * slide_part(fine, run) for run in telling]
-            errors[name] = np.maximum(np.max(changes, axis=0), expected) + told
+            with_quantity = [run for run in coarser if np.isfinite(run.values[name]).all()] or coarser
+            changes = [relative_difference(fine, run, name) * _slide_part(fine, run) for run in with_quantity]
+            errors[name] = np.maximum(np.max(changes, axis=0), expected) + increment_error
     return errors
 
 
-def slide_part(fine: Solution, coarse: Solution) -> float:
+def _slide_part(fine: Solution, coarse: Solution) -> float:
     """Return the part of the difference of two slides that the finer grid leaves; 1 for the same grid."""
     shrinkage = (fine.points / coarse.points) ** SLIDE_ORDER
     return 1 / (shrinkage - 1) if shrinkage > 1 else 1.0

@@ -17,13 +17,7 @@ import numpy as np
 from contactsim.durations import duration_text
 from contactsim.error_control.knobs import EXPECTED, GRID, PATH_TOLERANCE, grid_features
 from contactsim.error_control.measured import is_measured
-from contactsim.error_control.options import (
-    SECOND_COARSE_GRID_RATIOS,
-    choose_options,
-    coarsen,
-    expect_error,
-    set_grid,
-)
+from contactsim.error_control.options import choose_companions, choose_options, expect_error
 from contactsim.error_control.relations import Family, scaling_relations
 from contactsim.error_control.scaling import QUANTITIES, scene_family
 from contactsim.errors import InputError
@@ -158,13 +152,10 @@ def step_features(setup: Setup) -> dict[str, float]:
 def forecast_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -> Forecast:
     """Forecast a run to a wanted error, its companions included, in transforms of its own grid."""
     chosen = choose_options(setup, error, quantities)
-    family = scene_family(chosen.scene)
-    companions = [coarsen(chosen)]
-    if family in SECOND_COARSE_GRID_RATIOS:
-        companions.append(set_grid(chosen, chosen.points / SECOND_COARSE_GRID_RATIOS[family]))
-    run, part = forecast_setup(chosen, quantities), scaling_relations().families[family].warm_start
+    run = forecast_setup(chosen, quantities)
+    part = scaling_relations().families[scene_family(chosen.scene)].warm_start
     transforms, units = part * run.transforms, part * run.units
-    for companion in companions:
+    for companion in choose_companions(chosen):
         before = forecast_setup(companion, quantities)
         transforms += before.transforms * companion.size / chosen.size
         units += before.units

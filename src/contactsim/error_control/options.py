@@ -110,6 +110,12 @@ def coarsen(setup: Setup) -> Setup:
     return set_grid(setup, setup.points / COARSE_GRID_RATIOS[family])
 
 
+def choose_companions(setup: Setup) -> list[Setup]:
+    """Return the coarser runs that a setup is compared with, the coarsest first: one, or two of a slide."""
+    ratio = SECOND_COARSE_GRID_RATIOS.get(scene_family(setup.scene))
+    return [coarsen(setup), *([set_grid(setup, setup.points / ratio)] if ratio else [])]
+
+
 def expect_error(setup: Setup, family: Family, name: str, knobs: Sequence[str] = EXPECTED) -> float:
     """Return the largest relative error of a quantity that knobs, grid and increments, are expected to leave."""
     return KNOBS[setup.scene.kind].expect_error(setup, family, name, knobs)
