@@ -203,7 +203,7 @@ class CohesiveProblem:
 
     def energy(self, displacement: Array, gap: Array) -> float:
         """Return the mean potential energy over the period, N/m: elastic, of the laws, and of the load."""
-        weighted = self.add_elastic(np.zeros_like(displacement), displacement) * self.mode_weights
+        weighted = self.elastic(displacement) * self.mode_weights
         elastic = 0.5 * float(np.vdot(displacement, weighted).real)
         of_load = 0.0 if self.load is None else self.load * float(displacement[0, 0].real)
         of_laws = potential(self.law, gap)
@@ -220,12 +220,17 @@ class CohesiveProblem:
 
     def add_elastic(self, traction: Array, displacement: Array) -> Array:
         """Add K v to a traction's coefficients (exerted, m), in place; zero where the displacement is fixed."""
+        traction += self.elastic(displacement)
+        traction[self.fixed_modes, 0] = 0
+        return traction
+
+    def elastic(self, displacement: Array) -> Array:
+        """Return the coefficients (exerted, m) of K v, GPa; zero where the displacement is fixed."""
         elastic = self.stiffness.apply(displacement)
         if self.load is not None:
             elastic[0, 0] = 0
-        traction += elastic
-        traction[self.fixed_modes, 0] = 0
-        return traction
+        elastic[self.fixed_modes, 0] = 0
+        return elastic
 
     def norm(self, residual: Array) -> float:
         """Return the largest value at any point of a residual's coefficients (exerted, m), over the strength.

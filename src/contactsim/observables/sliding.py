@@ -54,7 +54,7 @@ def slide_observables(problem: CohesiveProblem, gap: Array, displacement: Array)
         NaN without; contact_slip, the mean tangential gap where surfaces are closest, nm; elastic_energy, nJ/m.
     """
     close = gap[0] <= gap[0].min() + problem.law.interaction_range
-    weighted = problem.add_elastic(np.zeros_like(displacement), displacement) * problem.mode_weights
+    weighted = problem.elastic(displacement) * problem.mode_weights
     trailing, leading = contact_ends(gap[0], problem.shape[0], problem.grid.spacing[0])
     return {
         "sliding_distance": problem.sliding_distance,

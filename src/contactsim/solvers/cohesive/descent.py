@@ -50,8 +50,8 @@ LEAST_CURVATURE = 1e-8
 class _Place:
     """A displacement, what acts at it, and the gradient of the energy.
 
-    Displacement, elastic traction and gradient are scaled coefficients (exerted, m): times the root of how often each
-    counts in a mean, so that products of their real and imaginary parts add up to means over the period.
+    Displacement, elastic traction and gradient are in a row of real numbers: real and imaginary parts of coefficients
+    (exerted, m), times the root of how often each counts in a mean. Their products add up to means over the period.
     """
 
     displacement: Array
@@ -81,9 +81,10 @@ class _Descent:
 
     def __init__(self, problem: CohesiveProblem) -> None:
         self._problem = problem
-        self._scale = np.sqrt(problem.mode_weights)
+        self._scale = np.tile(np.repeat(np.sqrt(problem.mode_weights), 2), problem.unknowns[0])
+        self._unscale = 1 / self._scale
         self._stiffened = problem.regularised_stiffness.inverse(problem.law_stiffness)
-        self._precondition: Callable[[Array], Array] = self._stiffened.apply
+        self._precondition: Callable[[Array], Array] = self._apply_stiffened
         self._renewal_residual, self._return_residual = NEAR_RESIDUAL, np.inf
         self._pairs: deque[tuple[Array, Array, float]] = deque(maxlen=PAIRS)
 
@@ -95,7 +96,7 @@ class _Descent:
             worst = self._worst(here.gradient)
             needs_renewal = worst <= self._renewal_residual
             if count and (needs_renewal or worst <= problem.tolerance):  # sums of many steps have their rounding
-                here = self._place_at(here.displacement / self._scale)
+                here = self._place_at(self._unscaled(here.displacement))
                 worst = self._worst(here.gradient)
             if worst <= problem.tolerance:
                 status = Status.CONVERGED
@@ -109,60 +110,61 @@ class _Descent:
                 self._renew_metric(here.gap, worst)
             elif worst > self._return_residual:
                 self._leave_tangents_out(worst)
-            step, slope = self._direction(_numbers(here.gradient))
+            step, slope = self._direction(here.gradient)
             after = self._search(here, step, slope) if slope < 0 else None
             if after is None:
                 break
             count, here = count + 1, after
-        displacement = here.displacement / self._scale
+        displacement = self._unscaled(here.displacement)
         distance = largest_change(problem, displacement - start)
         if status is not Status.CONVERGED:
-            worst = problem.norm(here.gradient / self._scale)
+            worst = problem.norm(self._unscaled(here.gradient))
         return Equilibrium(displacement, here.gap, here.traction, status, worst, distance, count)
 
     def _place_at(self, displacement: Array) -> _Place:
         """Return the place at the coefficients of a displacement (exerted, m)."""
         gap = self._problem.gap(displacement)
-        scaled = displacement * self._scale
+        scaled = _numbers(displacement) * self._scale
         return self._place(scaled, self._elastic(scaled), gap, self._problem.traction(gap))
 
     def _elastic(self, scaled: Array) -> Array:
-        """Return the elastic traction at a displacement, both scaled coefficients."""
-        return self._problem.add_elastic(np.zeros_like(scaled), scaled)
+        """Return the elastic traction at a displacement, both in scaled numbers."""
+        return _numbers(self._problem.elastic(self._coefficients(scaled)))
 
     def _place(self, displacement: Array, elastic: Array, gap: Array, traction: Array) -> _Place:
         """Return a place with its gradient."""
         problem = self._problem
         gradient = problem.coefficients(traction)
-        gradient *= self._scale
-        gradient += elastic
+        numbers = _numbers(gradient)
+        numbers *= self._scale
+        numbers += elastic
         if problem.load is not None:
             gradient[0, 0] += problem.load
         gradient[problem.fixed_modes, 0] = 0
-        return _Place(displacement, elastic, gap, traction, gradient)
+        return _Place(displacement, elastic, gap, traction, numbers)
 
     def _worst(self, gradient: Array) -> float:
         """Return the largest residual at any point, or less where its root mean square is above the tolerance."""
-        problem, numbers = self._problem, _numbers(gradient)
-        mean = float(np.sqrt(numbers @ numbers)) / (problem.strength * np.sqrt(len(gradient)))
-        return problem.norm(gradient / self._scale) if mean <= problem.tolerance else mean
+        problem = self._problem
+        mean = float(np.sqrt(gradient @ gradient)) / (problem.strength * np.sqrt(problem.unknowns[0]))
+        return problem.norm(self._unscaled(gradient)) if mean <= problem.tolerance else mean
 
     def _renew_metric(self, gap: Array, residual: float) -> None:
         """Take the positive tangents at a gap into the metric; what was remembered in the old metric is forgotten."""
-        problem, scale = self._problem, self._scale
+        problem = self._problem
         values = problem.tangent(gap)[1].values
         stiffening = np.zeros_like(values)
         for row in range(len(values)):
             np.maximum(values[row, row], 0, out=stiffening[row, row])
         inverse = ZonePreconditioner(problem, Tangent(problem, stiffening))
-        self._precondition = lambda gradient: scale * inverse(gradient / scale)
+        self._precondition = lambda gradient: _numbers(inverse(self._unscaled(gradient))) * self._scale
         self._renewal_residual = RENEWAL_RATIO * residual
         self._return_residual = max(RETURN_RATIO * residual, NEAR_RESIDUAL)
         self._pairs.clear()
 
     def _leave_tangents_out(self, residual: float) -> None:
         """Return to the metric of K + k."""
-        self._precondition = self._stiffened.apply
+        self._precondition = self._apply_stiffened
         self._renewal_residual, self._return_residual = min(NEAR_RESIDUAL, residual / RETURN_RATIO), np.inf
         self._pairs.clear()
 
@@ -173,7 +175,7 @@ class _Descent:
             for moved, turned, product in reversed(pairs):
                 shares.append((moved @ step) / product)
                 step -= shares[-1] * turned
-            step = _numbers(self._precondition(self._coefficients(step)))
+            step = self._precondition(step)
             for (moved, turned, product), share in zip(pairs, reversed(shares), strict=True):
                 step += (share - (turned @ step) / product) * moved
             slope = float(gradient @ step)
@@ -182,21 +184,30 @@ class _Descent:
             self._pairs.clear()
         return step, slope
 
+    def _apply_stiffened(self, gradient: Array) -> Array:
+        """Return the step along a gradient in the metric of K + k, both in scaled numbers."""
+        return _numbers(self._stiffened.apply(self._coefficients(gradient)))
+
     def _coefficients(self, numbers: Array) -> Array:
-        """Return real numbers as the scaled coefficients that they are parts of."""
+        """Return real numbers as the coefficients (exerted, m) that they are parts of."""
         return numbers.view(complex).reshape(self._problem.unknowns)
+
+    def _unscaled(self, numbers: Array) -> Array:
+        """Return coefficients (exerted, m) from scaled numbers."""
+        return self._coefficients(numbers * self._unscale)
 
     def _search(self, here: _Place, step: Array, slope: float) -> _Place | None:
         """Return the place at the end of a step, shortened until it does not go far uphill; None if it never ends."""
-        problem, change = self._problem, self._coefficients(step)
-        field = problem.field(change / self._scale)
-        along = field[: len(change)]
-        elastic = self._elastic(change)
-        bend = float(step @ _numbers(elastic))
+        problem = self._problem
+        field = problem.field(self._unscaled(step))
+        along = field[: problem.unknowns[0]]
+        elastic = self._elastic(step)
+        bend = float(step @ elastic)
         fixed = slope - float(np.vdot(here.traction, along)) / along.shape[1]
         length = min(1.0, LONGEST_STEP * problem.interaction_range / max(float(along.max()), -float(along.min())))
         for _ in range(MAX_SHORTENINGS):
-            gap = here.gap + length * field
+            gap = length * field
+            gap += here.gap
             traction = problem.traction(gap)
             end = fixed + length * bend + float(np.vdot(traction, along)) / along.shape[1]
             if end <= -UPHILL * slope:
@@ -204,10 +215,11 @@ class _Descent:
             length *= max(LEAST_SHORTENING, slope / (slope - end)) if np.isfinite(end) else LEAST_SHORTENING
         else:
             return None
+        moved = length * step
         elastic *= length
         elastic += here.elastic
-        after = self._place(here.displacement + length * change, elastic, gap, traction)
-        self._remember(length * step, _numbers(after.gradient - here.gradient))
+        after = self._place(here.displacement + moved, elastic, gap, traction)
+        self._remember(moved, after.gradient - here.gradient)
         return after
 
     def _remember(self, moved: Array, turned: Array) -> None:
