@@ -24,7 +24,8 @@ from contactsim.solvers.registry import make_solver
 from contactsim.study.plan import Plan
 
 OURS = "conjugate_gradients"
-
+CAPPED_SIZE = 2048**2
+"""Points up to which a solution may take CAP; on more points it may take longer by their ratio."""
 
 TICKS = 0.3
 """CPU seconds for which the unit is timed in each round."""
@@ -43,19 +44,25 @@ def search(plan: Plan, case: dict, rung: int) -> dict:
     return {"status": "CONVERGED", "settings": settings, "rung": rung, "load_average": os.getloadavg()[0]}
 
 
+def tighten(plan: Plan, case: dict, settings: str) -> dict:
+    """Settings of aspher for a case: those given, with a tolerance that is tightened until it is certified."""
+    found, rung = peers.tightened(surface(plan, case)[0]()[0], peers.Settings.read(settings))
+    return {"status": "CONVERGED", "settings": found, "rung": rung, "load_average": os.getloadavg()[0]}
+
+
 def compare(plan: Plan, case: dict, rounds: int, settings: str) -> dict:
     """Measure our solver and the peer's in turns, in a process with a limit on its CPU time."""
     posing, heights = surface(plan, case)
     solve(make_solver(OURS), *posing())  # compiles
-    measured = run_in_child(lambda: measure_in_turns(posing, heights, case["solver"], settings, rounds))
-    return measured or {"status": f"not finished in {CAP} s", "seconds": CAP, "load_average": os.getloadavg()[0]}
+    cap = CAP * max(heights.size // CAPPED_SIZE, 1)
+    measured = run_in_child(lambda: measure_in_turns(posing, heights, case["solver"], settings, rounds, cap))
+    return measured or {"status": f"not finished in {cap} s", "seconds": cap, "load_average": os.getloadavg()[0]}
 
 
-def measure_in_turns(posing: Posing, heights: Array, name: str, settings: str, rounds: int) -> dict:
+def measure_in_turns(posing: Posing, heights: Array, name: str, settings: str, rounds: int, cap: int) -> dict:
     """Measure ours, then the peer's, in each round; return medians of the ratios and the best times."""
-    cap = int(time.process_time()) + CAP
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    resource.setrlimit(resource.RLIMIT_CPU, (cap, resource.RLIM_INFINITY))
+    resource.setrlimit(resource.RLIMIT_CPU, (int(time.process_time()) + cap, resource.RLIM_INFINITY))
     spent: list[tuple[float, float, float]] = []
     while len(spent) < rounds and (not spent or spent[-1][2] < LONG):
         unit = transform_seconds(heights)
@@ -125,6 +132,6 @@ def contact_differences(ours: tuple[Array, Array], theirs: tuple[Array, Array], 
     return {
         "differing": int(differ.sum()),
         "undecided": int(((pressure <= 1) & (gap <= 1)).sum()),
-        "max_pressure": pressure.max(initial=0.0),
+        "largest_pressure": pressure.max(initial=0.0),
         "largest_gap": gap.max(initial=0.0),
     }

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -104,6 +104,19 @@ def quickest(problem: HardWallProblem, rung: int) -> tuple[Settings, int]:
     if not found:
         raise ValueError("nothing that aspher returned is certified")
     return found[min(found)]
+
+
+def tightened(problem: HardWallProblem, settings: Settings) -> tuple[Settings, int]:
+    """The settings at the loosest tolerance that is certified, from theirs on; and its place in RUNGS.
+
+    Raises ValueError if nothing is certified.
+    """
+    first = int(np.argmin([abs(np.log(rung / settings.tolerance)) for rung in RUNGS]))
+    for rung in range(first, len(RUNGS)):
+        tried = replace(settings, tolerance=RUNGS[rung])
+        if seconds(problem, tried) < float("inf"):
+            return tried, rung
+    raise ValueError("nothing that aspher returned is certified")
 
 
 def seconds(problem: HardWallProblem, settings: Settings) -> float:

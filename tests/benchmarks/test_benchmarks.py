@@ -8,6 +8,7 @@ from importlib import import_module
 
 import pytest
 
+from contactsim.study.plan import Plan
 from support.places import ROOT
 
 FOLDER = ROOT / "benchmarks"
@@ -26,3 +27,14 @@ def test_tables_and_picture_are_drawn_from_the_measurements(tmp_path, module, na
     import_module(module).write(FOLDER / f"{name}.csv", picture, readme)
     assert picture.stat().st_size > 10_000
     assert readme.read_text(encoding="utf-8").startswith("# Benchmarks")
+
+
+def test_a_pair_has_the_columns_of_the_table_and_both_solutions_agree():
+    plan = Plan.read(ROOT / "config", "standard")
+    case = {"points": 512, "hurst_exponent": 0.8, "member": 0, "reduced_pressure": 0.01, "tolerance": 1e-3}
+    row = import_module("pairs").compare(plan, case | {"solver": "polonsky_keer"}, 1, "")
+    assert row["status"] == "CONVERGED"
+    assert set(row) <= set(import_module("surface_solvers").FOUND)
+    assert max(row["certificate"], row["own_certificate"]) <= case["tolerance"]
+    assert row["area"] == pytest.approx(row["own_area"], abs=1e-5)
+    assert row["differing"] == row["undecided"]
