@@ -12,7 +12,7 @@ import yaml
 
 import contactsim as cs
 from contactsim import cli, dataset
-from contactsim.error_control import control, knobs, options
+from contactsim.error_control import control, grids, knobs, options
 from contactsim.error_control.control import MAX_REFINEMENTS, Controlled, solve_to_error
 from contactsim.error_control.estimates import estimate_errors
 from contactsim.error_control.forecast import forecast_run, forecast_setup, forecast_to_error
@@ -284,6 +284,15 @@ def test_a_run_is_refined_twice_at_most(monkeypatch):
     monkeypatch.setattr(Controlled, "met", property(lambda self: False))
     result = solve_to_error(drawn(LINE, 1).setup, 0.05)
     assert result.refinements == len(result.before) - 1 == MAX_REFINEMENTS
+
+
+def test_on_the_largest_grid_what_was_solved_is_kept_and_is_not_said_to_be_accurate(monkeypatch):
+    setup = setup_of(LINE_SCENE)
+    first = solve_to_error(setup, 0.02).last.points
+    monkeypatch.setattr(grids, "MAX_POINTS", first)
+    monkeypatch.setattr(control, "estimate_errors", lambda *found: {"kappa": np.array([0.2, 0.1])})
+    result = solve_to_error(setup, 0.02)
+    assert (result.last.points, result.refinements, result.met) == (first, 0, False)
 
 
 def test_where_neither_of_two_runs_is_solved_nothing_is_refined(monkeypatch):

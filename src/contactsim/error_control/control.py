@@ -36,6 +36,7 @@ from contactsim.error_control.relations import Family, scaling_relations
 from contactsim.error_control.scaling import DEFAULT_GRID_ORDER, GRID_ORDERS, QUANTITIES, scene_family
 from contactsim.error_control.solution import Solution, relative_difference, solve_setup
 from contactsim.error_control.stepwise import has_relations, keep_present, solve_stepwise
+from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.paths.options import Setup
 
@@ -139,7 +140,8 @@ def solve_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -
     Returns
     -------
     Controlled
-        The final solution with its estimates. `met` is false where the error is missed after `MAX_REFINEMENTS`.
+        The final solution with its estimates. `met` is false where the error is missed after `MAX_REFINEMENTS`, or on
+        the largest grid.
     """
     first = choose_options(setup, error, quantities)
     if is_measured(first.scene):
@@ -166,7 +168,10 @@ def _solve_by_relations(first: Setup, error: float, quantities: Sequence[str]) -
         outcome = Controlled(runs[-1], runs[:-1], errors, error, coarser[-1], refinements)
         if outcome.met or refinements == MAX_REFINEMENTS or not any(run.solved for run in runs[-2:]):
             break
-        setup = _refine(runs[-1], errors, error)
+        try:
+            setup = _refine(runs[-1], errors, error)
+        except InputError:  # beyond the largest grid: what was solved is kept, and called too coarse
+            break
     return outcome
 
 
