@@ -61,6 +61,16 @@ def test_without_contact_there_is_none_and_full_contact_does_not_give_way():
     assert cs.contact_stiffness(layer) == pytest.approx(1 / uniform, rel=1e-6)
 
 
+@pytest.mark.parametrize("thickness", [1e4, 1e6, 1e9])
+def test_a_thick_layer_is_a_half_space_on_a_uniform_spring(thickness):
+    options = {"contact_modulus": 2.0, "mean_pressure": 0.05, "spacing": 1.0, "tolerance": 1e-9}
+    layer = cs.press(wave(64), **options, thickness=thickness, poisson_ratio=0.3)
+    half_space = cs.press(wave(64), **options)
+    uniform = float(layer.scene.compliance(np.zeros(1))[0])
+    expected = 1 / cs.contact_stiffness(half_space) + uniform
+    assert 1 / cs.contact_stiffness(layer) == pytest.approx(expected, rel=1e-6)
+
+
 def test_a_punch_that_does_not_converge_has_no_stiffness():
     assert np.isnan(cs.contact_stiffness(press(rough(64), 0.05), tolerance=1e-300))
 

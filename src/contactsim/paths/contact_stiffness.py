@@ -55,15 +55,21 @@ def contact_stiffness(result: Result, *, tolerance: float = 1e-7, threads: int =
     problem, scale = pose_hard_wall(punch, step, heights, 1.0, threads)
     problem.tolerance = tolerance / scale.step
     pressed = solve(default_solver(punch), problem, scale)
-    return pressed.mean_pressure if pressed.status.solved else np.nan
+    return pressed.mean_pressure / pressed.approach if pressed.status.solved else np.nan
 
 
 def _punch(scene: Scene, contact: Array) -> Scene:
-    """Return the scene of a flat punch that has the shape of a contact and approaches by one unit of length."""
+    """Return the scene of a flat punch that has the shape of a contact and approaches by about one unit of length.
+
+    A thick layer gives far more as a whole than to any wave. So a layer is given the load for this, and the others the
+    approach.
+    """
     share = contact.mean()
     depth = DEPTH * (1 + share / max(1 - share, 0.5 / contact.size))
     spacing = tuple(length / size for length, size in zip(scene.lengths, contact.shape, strict=True))
     surface = Topography(np.where(contact, 0.0, -depth), spacing)
     lower = Body(Flat.facing(surface), scene.lower.elasticity)
-    path = LoadPath((load_step(1.0, None, "load"),))
+    uniform = float(scene.compliance(np.zeros(1))[0]) if Trait.LAYER in scene.traits else 0.0
+    step = load_step(None, 1 / uniform, "load") if uniform else load_step(1.0, None, "load")
+    path = LoadPath((step,))
     return Scene(lower, Body(surface, scene.upper.elasticity), scene.effects, path)
