@@ -5,6 +5,7 @@ Files of instruments go through a stub of the library that reads them.
 
 from __future__ import annotations
 
+import bz2
 import gzip
 import sys
 import tracemalloc
@@ -15,6 +16,7 @@ from types import ModuleType, SimpleNamespace
 import netCDF4
 import numpy as np
 import pytest
+from scipy.io import savemat
 
 from contactsim import dataset
 from contactsim.errors import InputError
@@ -154,11 +156,11 @@ BAD_TEXTS = [
     (".csv", "1,2,3,4|1,2,3,4", {"unit": "nm"}, "spacing", None, "(dy, dx)"),
     (".csv", "1,2|2,4", {"unit": "nm", "spacing": 1.01}, "spacing", 1.01, "1 nm"),
     (".xyz", POINTS_TEXT, {"unit": "nm", "spacing": (0.5, 2.0)}, "spacing", 0.5, "2 nm"),
-    (".csv", "", NM, "heights", "0 rows", "two or more rows"),
-    (".csv", "z [nm]|1.0", NM, "heights", "1 rows", "two or more rows"),
-    (".csv", "1;2|2;4", NM | {"delimiter": ","}, "line 1", "1;2", "numbers"),
+    (".csv", "", NM, "heights", "no row of numbers", "two or more rows"),
+    (".csv", "z [nm]|1.0", NM, "heights", "one row of numbers", "two or more rows"),
+    (".csv", "1;2|2;4", NM | {"delimiter": ","}, "line 1, column 1", "1;2", "a number"),
     (".csv", "1;2|2;4", NM | {"delimiter": "|"}, "delimiter", "|", "tab"),
-    (".csv", "1,2|2,4", NM | {"variable": "z"}, "variable", "z", "only for .npz, .nc"),
+    (".csv", "1,2|2,4", NM | {"variable": "z"}, "variable", "z", "only for .npz, .mat, .nc"),
     (".csv", "nan|1|2", NM, "heights", "nan in row 1", "finite"),
     (".csv", "1|2|inf", NM, "heights", "inf in row 3", "finite"),
     (".csv", "1,2|inf,3|3,4", NM, "positions", "inf in row 2", "finite"),
@@ -167,8 +169,8 @@ BAD_TEXTS = [
     (".csv", "0,1|1.0011,1|2,1|3,1", {"unit": "nm"}, "positions", None, "0.001"),
     (".csv", "7,1|7,2|7,3", {"unit": "nm"}, "positions", None, "equal steps"),
     (".csv", "1,2,1|2,4,1|3,6,1", LINE_NM, "positions", "x and y that both vary", "line scan"),
-    (".csv", "1,2,3,4|1,2,3,4", LINE_NM, "line 1", "1,2,3,4", "one to three"),
-    (".csv", "1|2|3", AREA_NM, "line 1", "1", "two or more heights"),
+    (".csv", "1,2,3,4|1,2,3,4", LINE_NM, "line 1", "4 numbers", "one to three"),
+    (".csv", "1|2|3", AREA_NM, "line 1", "1 number", "two or more heights"),
     (".csv", "1,2,nan,4|1,inf,3,4", NM, "heights",
      "2 of 8 points missing or not finite, the first nan in row 1, column 3", "none"),
     (".csv", "1 0 0|2 0 1|5 1 0|4 1 1", NM, "heights", None, "in the order x y z"),
@@ -179,8 +181,8 @@ BAD_TEXTS = [
     (".txt", "# h=3 w=2|1 2|3 4", {"unit": "nm", "dimensions": 2}, "heights", "2 rows", "3, as line 1 says"),
     (".txt", "Value units: rad|1 2|3 4", {"spacing": 1, "dimensions": 2}, "unit", "rad", "for heights one of"),
     (".txt", "a|b|" * 600 + "1 2", NM, "heights", "1001 lines of words", "rows of numbers"),
-    (".xyz", "1 2 3 4|1 2 3 4", NM, "line 1", "1 2 3 4", "x, y and z"),
-    (".xyz", "1 2|3 4", AREA_NM, "line 1", "1 2", "x, y and z"),
+    (".xyz", "1 2 3 4|1 2 3 4", NM, "line 1", "4 numbers", "x, y and z"),
+    (".xyz", "1 2|3 4", AREA_NM, "line 1", "2 numbers", "x, y and z"),
     (".xyz", POINTS_TEXT[:-7], NM, "positions", "1 of 2 × 3 points missing, the first at x = 1 nm, y = 10 nm", "once"),
     (".xyz", "0 10 1|0 12 2|1 10 3|1 12 4|1 10 5", NM, "positions",
      "1 of 2 × 2 points given more than once, the first at x = 1 nm, y = 10 nm", "once"),
@@ -200,19 +202,97 @@ def test_a_bad_text_is_refused_with_its_place(tmp_path, suffix, text, options, k
         assert error.value == value
 
 
-BAD_ROWS = ["2,abc", "2,", "2", "2,3,4", "2;3", "2 3", "2,3 # why", "1_0,2", "x [nm], z [nm]", "2,1.O5"]
+BAD_ROWS = [
+    *(("2,abc", ", column 2", "abc"), ("2,", ", column 2", "nothing"), ("2,3 # why", ", column 2", "3 # why")),
+    *(("2;3", ", column 1", "2;3"), ("2 3", "", "2 numbers"), ("1_0,2", ", column 1", "1_0")),
+    *(("x [nm], z [nm]", ", column 1", "x [nm]"), ("2,1.O5", ", column 2", "1.O5")),
+    *(("2", "", "1 number"), ("2,3,4", "", "3 numbers")),
+]
 
 
-@pytest.mark.parametrize("row", BAD_ROWS)
-def test_a_row_that_does_not_parse_is_refused_with_its_line(tmp_path: Path, row: str) -> None:
+@pytest.mark.parametrize(("row", "column", "value"), BAD_ROWS)
+def test_a_row_that_does_not_parse_is_refused_with_its_line(tmp_path: Path, row: str, column: str, value: str) -> None:
     file = write(tmp_path, f"# comment|x [nm], z [nm]|0,1||1,1|{row}|3,1")
-    assert refusal("line 6", file, lambda: read_topography(file)).value == row
+    assert refusal(f"line 6{column}", file, lambda: read_topography(file)).value == value
+
+
+def test_what_is_wrong_in_a_wide_row_is_told(tmp_path: Path) -> None:
+    wide = ";".join(["1.25"] * 40)
+    file = write(tmp_path, f"{wide}|{wide[:-5]}")
+    assert "as many as in line 1: 40" in refusal("line 2", file, lambda: read_topography(file, **AREA_NM)).allowed
+
+
+def test_commas_in_the_numbers_and_between_them_are_refused(tmp_path: Path) -> None:
+    file = write(tmp_path, "-3,05,2,75|1,5,-2,25")
+    refusal("delimiter", file, lambda: read_topography(file, **AREA_NM))
+    whole = read_topography(write(tmp_path, "3,5,2,75|1,5,-2,25"), **AREA_NM)  # may be so
+    assert whole.values.shape == (2, 4)
+
+
+def test_a_text_in_utf_16_is_read_as_it_is(tmp_path: Path) -> None:
+    file = tmp_path / "t.txt"
+    file.write_text("# Value units: µm\n1\t2\n3\t4,5\n", encoding="utf-16")
+    np.testing.assert_allclose(read_topography(file, dimensions=2, spacing=1.0).values, [[1e3, 2e3], [3e3, 4.5e3]])
+
+
+GRID = "ncols 3\nnrows 2\nxllcorner 10\nyllcorner 20\ncellsize 30\nNODATA_value -9999\n1 2 3\n4 -9999 6\n"
+
+
+def test_a_grid_of_a_geographic_system_is_read_from_its_lowest_row_with_what_is_missing(tmp_path: Path) -> None:
+    file = tmp_path / "elevation.asc"
+    file.write_text(GRID)
+    grid = read_topography(file, unit="m", fill="nearest")
+    assert (grid.spacing, grid.filled) == ((3e10, 3e10), pytest.approx(1 / 6))
+    np.testing.assert_array_equal(grid.values[1], [1e9, 2e9, 3e9])
+    refusal("heights", file, lambda: read_topography(file, unit="m"))
+    refusal("unit", file, lambda: read_topography(file))
+    refusal("spacing", file, lambda: read_topography(file, unit="m", fill="nearest", spacing=10.0))
+
+
+def test_two_statements_that_differ_are_refused(tmp_path: Path) -> None:
+    file = write(tmp_path, "# Value units: um|# Value units: nm|1 2|3 4", ".txt")
+    assert (
+        "um, as line 1 says"
+        in refusal("line 2", file, lambda: read_topography(file, dimensions=2, spacing=1.0)).allowed
+    )
+
+
+def test_a_matrix_of_matlab_has_a_row_for_each_y(tmp_path: Path) -> None:
+    file = tmp_path / "m.mat"
+    savemat(file, {"z": HEIGHTS, "dx": 10.0})
+    same(read_topography(file, spacing=SPACING))
+    savemat(file, {"z": HEIGHTS[0], "dx": 10.0})
+    same(read_topography(file, spacing=1.0), HEIGHTS[0], (1.0,))
+    savemat(file, {"a": HEIGHTS, "b": HEIGHTS})
+    refusal("variable", file, lambda: read_topography(file, spacing=1.0))
+    same(read_topography(file, spacing=SPACING, variable="b"))
+
+
+@pytest.mark.parametrize("cut", [8, 100])
+def test_a_classic_netcdf_file_that_is_cut_off_is_refused(tmp_path: Path, cut: int) -> None:
+    file = tmp_path / "t.nc"
+    with netCDF4.Dataset(file, "w", format="NETCDF3_CLASSIC") as data:
+        for name, size in (("y", 3), ("x", 4)):
+            data.createDimension(name, size)
+        entry = data.createVariable("z", float, ("y", "x"))
+        entry[:], entry.units = HEIGHTS, "nm"
+    same(read_topography(file, spacing=SPACING))
+    file.write_bytes(file.read_bytes()[:-cut])
+    refusal("path", file, lambda: read_topography(file, spacing=SPACING))
+
+
+def test_heights_beyond_all_sizes_and_what_is_no_file_are_refused(tmp_path: Path) -> None:
+    file = write(tmp_path, "1e301 2|3 4", ".txt")
+    refusal("heights", file, lambda: read_topography(file, **AREA_NM))
+    with refused("path", "the name of a file"):
+        read_topography(HEIGHTS)
 
 
 @pytest.mark.parametrize("text", ["1 2 3 4|5 6 7 8.5", "1;2;3;4|5;6;7;8.5"])
-def test_a_compressed_text_is_read_as_it_is(tmp_path: Path, text: str) -> None:
-    file = tmp_path / "t.txt.gz"
-    file.write_bytes(gzip.compress(text.replace("|", "\n").encode()))
+@pytest.mark.parametrize(("suffix", "compress"), [("gz", gzip.compress), ("bz2", bz2.compress)])
+def test_a_compressed_text_is_read_as_it_is(tmp_path: Path, text: str, suffix: str, compress) -> None:
+    file = tmp_path / f"t.txt.{suffix}"
+    file.write_bytes(compress(text.replace("|", "\n").encode()))
     same(read_topography(file, unit="nm", spacing=SPACING), AREA)
     file.write_bytes(file.read_bytes()[:-9])
     refusal("path", file, lambda: read_topography(file, unit="nm", spacing=SPACING))
@@ -243,7 +323,7 @@ def test_positions_rounded_to_their_last_digit_are_equally_spaced_where_there_ar
 @pytest.mark.parametrize("row", ["1.O5", "1,5;2,3", "[nm]", "-"])
 def test_a_first_row_that_does_not_parse_is_not_taken_for_a_header(tmp_path: Path, row: str) -> None:
     file = write(tmp_path, f"{row}|1|2|3", ".txt")
-    assert refusal("line 1", file, lambda: read_topography(file, dimensions=1, **NM)).value == row
+    assert refusal("line 1, column 1", file, lambda: read_topography(file, dimensions=1, **NM)).value == row
 
 
 def test_the_micro_sign_of_a_latin1_file_is_understood(tmp_path: Path) -> None:
@@ -410,7 +490,7 @@ def test_a_spacing_that_is_not_one_or_two_positive_numbers_is_refused(tmp_path: 
 
 @pytest.mark.parametrize("path", [None, 3, "none.npy", "none.tif", "."])
 def test_a_path_without_a_file_is_refused(path: object) -> None:
-    with pytest.raises(InputError, match=r"path: got .*; allowed: an existing file"):
+    with pytest.raises(InputError, match=r"path: got .*; allowed: (an existing file|the name of a file)"):
         read_topography(path, spacing=1)
 
 

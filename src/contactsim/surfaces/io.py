@@ -14,13 +14,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contactsim.errors import POSITIVE, InputError, Words, is_positive
+from contactsim.errors import LARGEST, NUMBER, POSITIVE, InputError, Words, is_positive
 from contactsim.grid import Array
 
-UNITS = {"m": 1e9, "mm": 1e6, "um": 1e3, "\u03bcm": 1e3, "micrometer": 1e3, "nm": 1.0, "angstrom": 0.1}
-TEXT = (".csv", ".txt", ".xyz", ".dat")
+UNITS = {
+    **{"m": 1e9, "mm": 1e6, "um": 1e3, "\u03bcm": 1e3, "micrometer": 1e3, "micron": 1e3, "microns": 1e3},
+    **{"nm": 1.0, "angstrom": 0.1, "\u00c5": 0.1, "pm": 1e-3, "inch": 2.54e7},
+}
+TEXT = (".csv", ".txt", ".xyz", ".dat", ".asc")
+COMPRESSED = {".gz": "gzip", ".bz2": "bz2"}
+"""Modules that open a compressed text, by its suffix."""
 HDF5 = (".nc", ".h5", ".hdf5")
-SUFFIXES = (".npy", ".npz", *TEXT, *HDF5)
+NAMED = (".npz", ".mat", *HDF5)
+"""Files that hold several arrays by their names."""
+SUFFIXES = (".npy", *NAMED, *TEXT)
 MAX_HEIGHTS = 2**28
 """Most heights of a measurement: 2 GiB."""
 TOLERANCE = 1e-3
@@ -40,7 +47,9 @@ RawHeights = tuple[Array, tuple[float | None, ...]]
 
 def existing_path(path: object) -> Path:
     """Return the path of an existing file; InputError otherwise."""
-    if not isinstance(path, str | Path) or not Path(path).is_file():
+    if not isinstance(path, str | Path):
+        raise InputError("path", Words(type(path).__name__), "the name of a file, a str or Path")
+    if not Path(path).is_file():
         raise InputError("path", path, "an existing file", path)
     return Path(path)
 
@@ -49,7 +58,7 @@ def suffix_of(file: Path) -> str:
     """Return the suffix of a file in small letters, of a compressed text that of the text."""
     suffix = file.suffix.lower()
     inner = Path(file.stem).suffix.lower()
-    return inner if suffix == ".gz" and inner in TEXT else suffix
+    return inner if suffix in COMPRESSED and inner in TEXT else suffix
 
 
 def refuse_unused(key: str, value: object, suffixes: tuple[str, ...], file: Path) -> None:
@@ -86,6 +95,9 @@ def real_numbers(values: ArrayLike, key: str, file: object, scale: float = 1.0, 
         raise InputError(key, Words(f"shape {array.shape} of {array.dtype}"), allowed, file)
     with np.errstate(over="ignore", invalid="ignore"):
         numbers: Array = np.ma.filled(array.astype(np.float64), np.nan) * scale
+        largest = float(np.abs(numbers).max(where=np.isfinite(numbers), initial=0.0))
+    if largest > LARGEST:
+        raise InputError(key, Words(f"{largest:g} nm"), f"{NUMBER}, in nm", file)
     return numbers
 
 
@@ -162,6 +174,20 @@ def load_npz(file: Path, variable: str | None) -> NDArray[Any]:
         with archive.open(f"{names[0]}.npy") as stream:
             array: NDArray[Any] = np.lib.format.read_array(stream, allow_pickle=False)
     return array
+
+
+def load_mat(file: Path, variable: str | None) -> NDArray[Any]:
+    """Return the matrix in a .mat file, with a row for each y, by its name if there are several; a vector is a line."""
+    from scipy.io import loadmat, whosmat  # slow to import
+
+    shapes = {name: shape for name, shape, _ in whosmat(file) if len(shape) == 2}
+    matrices = [name for name, shape in shapes.items() if min(shape) > 1]
+    names = [variable] if variable is not None else matrices or [name for name in shapes if max(shapes[name]) > 1]
+    if len(names) != 1 or names[0] not in shapes:
+        raise InputError("variable", variable, f"the name of the heights, of those: {list(shapes)}", file)
+    check_count(shapes[names[0]], "heights", file)
+    matrix: NDArray[Any] = loadmat(file, variable_names=names)[names[0]]
+    return matrix if min(matrix.shape) > 1 else matrix.ravel()
 
 
 def _stored_shape(archive: zipfile.ZipFile, name: str) -> tuple[int, ...]:

@@ -13,6 +13,9 @@ from contactsim.grid import Array
 from contactsim.surfaces import io
 from contactsim.surfaces.io import RawHeights
 
+CLASSIC = (b"CDF\x01", b"CDF\x02")
+"""First bytes of files in the classic format of netCDF, and in that with 64-bit offsets."""
+
 
 def read_netcdf(file: Path, dimensions: int | None, unit: str | None, variable: str | None) -> RawHeights:
     """Return the heights of a netCDF or HDF5 file and their spacing.
@@ -20,6 +23,7 @@ def read_netcdf(file: Path, dimensions: int | None, unit: str | None, variable: 
     Without `dimensions`, those of the named variable count, and else an area is preferred. The dimensions of an area
     are y and x, in any order, or else rows and columns.
     """
+    _check_length(file)
     with netCDF4.Dataset(str(file)) as data:
         entries = _all_variables(data)
         if dimensions is None:
@@ -36,6 +40,20 @@ def read_netcdf(file: Path, dimensions: int | None, unit: str | None, variable: 
         heights = heights[tuple(slice(None, None, -1 if step and step < 0 else 1) for step in steps)]
         spacing = tuple(step and abs(step) for step in steps)
         return (heights.T, spacing[::-1]) if field.dimensions == ("x", "y") else (heights, spacing)
+
+
+def _check_length(file: Path) -> None:
+    """Raise an InputError for a file in the classic format that is cut off: it would be read as zeros."""
+    with file.open("rb") as stream:
+        if stream.read(4) not in CLASSIC:
+            return
+        from scipy.io import netcdf_file  # slow to import
+
+        stream.seek(0)
+        try:
+            netcdf_file(stream, mmap=False).close()  # it reads every variable
+        except (IndexError, TypeError, ValueError) as error:
+            raise InputError("path", str(file), f"a whole {file.suffix} file; this one is cut off", file) from error
 
 
 def _all_variables(data: netCDF4.Dataset, path: str = "") -> dict[str, netCDF4.Variable[Any]]:

@@ -8,7 +8,7 @@ from pathlib import Path
 from contactsim.errors import InputError
 from contactsim.surfaces import io
 from contactsim.surfaces.instrument import read_instrument
-from contactsim.surfaces.io import HDF5, SUFFIXES, TEXT, RawHeights
+from contactsim.surfaces.io import HDF5, NAMED, SUFFIXES, TEXT, RawHeights
 from contactsim.surfaces.missing import WAYS, fill_missing
 from contactsim.surfaces.netcdf import read_netcdf
 from contactsim.surfaces.text_layouts import read_text
@@ -30,11 +30,12 @@ def read_topography(
     Parameters
     ----------
     path : str or Path
-        - ``.npy``, ``.npz``: heights (n,) or (ny, nx).
-        - ``.csv``, ``.txt``, ``.dat``, also with ``.gz``: one column z, two columns x z, or three columns x y z with x
-          or y constant are a line; otherwise there is a row for each y, from the smallest, and a column for each x.
-          Sizes and units are read from lines before the numbers, such as ``# Width: 12.3 µm``. Three columns that are
-          the points x y z of a complete grid, in any order, are an area.
+        - ``.npy``, ``.npz``, ``.mat``: heights (n,) or (ny, nx).
+        - ``.csv``, ``.txt``, ``.dat``, ``.asc``, also with ``.gz`` or ``.bz2``: one column z, two columns x z, or three
+          columns x y z with x or y constant are a line; otherwise there is a row for each y, from the smallest, and a
+          column for each x. Sizes and units are read from lines before the numbers, such as ``# Width: 12.3 µm``. Three
+          columns that are the points x y z of a complete grid, in any order, are an area. A grid of a geographic
+          information system (``cellsize 30``) has the row of the largest y first; `unit` is that of all its lengths.
         - ``.xyz``: the same for a line; over an area the points x y z of a grid.
         - ``.nc``, ``.h5``, ``.hdf5``: a variable with one or two dimensions.
         - others: files of instruments, if the package SurfaceTopography is installed.
@@ -45,9 +46,10 @@ def read_topography(
         in the file are used first, and `spacing` must agree with them.
     unit : str, optional
         Unit of all that the file states no unit for; it must agree with the heights' if they have one. Heights in
-        ``.npy`` are in nm by default. In a text a header line like ``x [um], z [nm]`` states the units of all columns.
+        ``.npy``, ``.npz`` and ``.mat`` are in nm by default. In a text a header line like ``x [um], z [nm]`` states the
+        units of all columns.
     variable : str, optional
-        Name of the heights in ``.npz``, ``.nc`` and ``.h5``, of the channel in a file of an instrument.
+        Name of the heights in ``.npz``, ``.mat``, ``.nc`` and ``.h5``, of the channel in a file of an instrument.
     delimiter : {",", ";", tab, " "}, optional
         Separator in a text, " " for any blanks; the rows show it by default.
     fill : {"linear", "nearest", "lowest"}, optional
@@ -68,7 +70,7 @@ def read_topography(
     if dimensions not in (None, 1, 2):
         raise InputError("dimensions", dimensions, "1, a line, or 2, an area; as the file has without it", file)
     if io.suffix_of(file) in SUFFIXES:
-        io.refuse_unused("variable", variable, (".npz", *HDF5), file)
+        io.refuse_unused("variable", variable, NAMED, file)
     io.refuse_unused("delimiter", delimiter, TEXT, file)
     heights, steps = _read(file, dimensions, unit, variable, delimiter, fill is not None)
     filled = 0.0
@@ -103,7 +105,10 @@ def _read(
         if suffix in TEXT:
             return read_text(file, dimensions, unit, delimiter, with_gaps)
         scale = io.unit_factor("heights", None, "nm" if unit is None else unit, file)
-        array = io.load_npy(file) if suffix == ".npy" else io.load_npz(file, variable)
+        if suffix == ".npy":
+            array = io.load_npy(file)
+        else:
+            array = io.load_npz(file, variable) if suffix == ".npz" else io.load_mat(file, variable)
         heights = io.real_numbers(array, "heights", file, scale, dimensions or dimensions_of(array))
         return heights, (None,) * heights.ndim
 

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import gzip
 import itertools
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from importlib import import_module
+from io import TextIOWrapper
 from pathlib import Path
-from typing import NamedTuple, TextIO, cast
+from typing import IO, NamedTuple
 
 import numpy as np
 
-from contactsim.errors import InputError, Words
+from contactsim.errors import NOTHING, InputError, Words
 from contactsim.grid import Array
 from contactsim.surfaces import io
 from contactsim.surfaces.text_header import Header, bracketed_units
@@ -24,6 +25,10 @@ MAX_TEXT, CHUNK = 32 * io.MAX_HEIGHTS, 2**20
 SHOWN_ROWS = 100
 """Rows that show the separator, the decimal sign and how positions are rounded."""
 DECIMAL_COMMA = re.compile(r"[-+]?\d+(,\d*)?([eE][-+]?\d+)?")
+WHOLE, FRACTION = re.compile(r"[-+]?\d+"), re.compile(r"0\d+")
+"""Numbers without a fraction, and what stands behind a decimal comma but never alone, such as 05."""
+UTF_16 = (b"\xff\xfe", b"\xfe\xff")
+"""First bytes of a text in UTF-16."""
 
 
 @dataclass(frozen=True)
@@ -59,8 +64,11 @@ class Text:
                 if len(rows) == SHOWN_ROWS:
                     break
         if len(rows) < 2:
-            raise InputError("heights", Words(f"{len(rows)} rows"), "two or more rows of numbers", file)
+            count = {0: "no row", 1: "one row"}[len(rows)]
+            raise InputError("heights", Words(f"{count} of numbers"), "two or more rows", file)
         mark, decimal = _style([line.text for line in rows], delimiter)
+        if delimiter is None and mark == ",":
+            _check_commas([field for line in rows for field in _fields(line.text, mark)], file)
         header = Header(file, [(line.number, line.text) for line in before], _names_of_columns(before, mark), mark)
         return cls(file, header, rows[0].number, len(_numbers(rows[0].text, mark, decimal)), mark, decimal)
 
@@ -73,11 +81,22 @@ class Text:
         for line in _lines(self.file):
             if line.number < self.first or line.is_comment:
                 continue
-            values = _numbers(line.text, self.mark, self.decimal)
-            if None in values or len(values) not in widths or len(values) != len(rows[0] if rows else values):
-                raise InputError(f"line {line.number}", line.text, allowed, self.file)
-            rows.append(np.array(values, dtype=np.float64))
+            rows.append(np.array(self._row(line), dtype=np.float64))
+            count, first = rows[-1].size, rows[0].size
+            if count not in widths or count != first:
+                as_many = f", as many as in line {self.first}: {first}" if count != first else ""
+                value = Words(f"{count} number{'s' * (count > 1)}")
+                raise InputError(f"line {line.number}", value, allowed + as_many, self.file)
         return np.array(rows)
+
+    def _row(self, line: Line) -> list[float | None]:
+        """Return the numbers of a line; InputError for a field that is none."""
+        values = _numbers(line.text, self.mark, self.decimal)
+        if None in values:
+            column = values.index(None)
+            key, field = f"line {line.number}, column {column + 1}", _fields(line.text, self.mark)[column]
+            raise InputError(key, field or NOTHING, f"a number, like 1{self.decimal}5", self.file)
+        return values
 
     def _load_at_once(self) -> Array | None:
         """Return all numbers, much faster than line by line; None if a line is anything else, such as a comment."""
@@ -113,18 +132,31 @@ class Line(NamedTuple):
     is_comment: bool
 
 
-def _open_text(file: Path) -> TextIO:
-    """Open a text file, compressed or not; a byte-order mark is dropped and bytes that are not UTF-8 are kept."""
-    if file.suffix.lower() == ".gz":
-        return cast(TextIO, gzip.open(file, "rt", encoding="utf-8-sig", errors="surrogateescape"))
-    return file.open(encoding="utf-8-sig", errors="surrogateescape")
+def _open_bytes(file: Path) -> IO[bytes]:
+    """Open the bytes of a text file, compressed or not."""
+    module = io.COMPRESSED.get(file.suffix.lower())
+    stream: IO[bytes] = file.open("rb") if module is None else import_module(module).open(file)
+    return stream
+
+
+def _open_text(file: Path) -> TextIOWrapper:
+    """Open a text file, compressed or not, in UTF-16 or UTF-8.
+
+    A byte-order mark is dropped, and bytes that are not UTF-8 are kept.
+    """
+    stream = _open_bytes(file)
+    start = stream.read(2)
+    stream.seek(0)
+    if start in UTF_16:
+        return TextIOWrapper(stream, encoding="utf-16", errors="replace")
+    return TextIOWrapper(stream, encoding="utf-8-sig", errors="surrogateescape")
 
 
 def _check_size(file: Path) -> None:
     """Raise an InputError for a text that is too long, before memory is taken for its numbers."""
     size = file.stat().st_size
-    if file.suffix.lower() == ".gz":
-        with gzip.open(file) as stream:
+    if file.suffix.lower() in io.COMPRESSED:
+        with _open_bytes(file) as stream:
             size = 0
             while size <= MAX_TEXT and (chunk := stream.read(CHUNK)):
                 size += len(chunk)
@@ -174,6 +206,13 @@ def _style(rows: Sequence[str], delimiter: str | None) -> tuple[str, str]:
         last = rows[1] if len(rows) > 1 else rows[0]
         mark = ";" if ";" in last else " " if are_decimal or "," not in last else ","
     return mark, "," if mark != "," and has_commas and not has_points else "."
+
+
+def _check_commas(fields: Sequence[str], file: Path) -> None:
+    """Raise an InputError for fields that are halves of numbers with a decimal comma, such as 3 and 05."""
+    if all(map(WHOLE.fullmatch, fields)) and any(map(FRACTION.fullmatch, fields)):
+        problem = Words("commas both in the numbers and between them")
+        raise InputError("delimiter", problem, "semicolons, tabs or blanks between numbers with decimal commas", file)
 
 
 def _fields(line: str, mark: str) -> list[str]:

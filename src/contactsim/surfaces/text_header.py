@@ -18,15 +18,18 @@ from contactsim.surfaces import io
 
 WIDTH, HEIGHT = ("width", "breite"), ("height", "höhe")
 """Names of the length along x and along y."""
-COLUMNS, ROWS = ("w",), ("h",)
+COLUMNS, ROWS = ("w", "ncols"), ("h", "nrows")
 """Names of the number of points along x and along y."""
 SPACING = ("pixel size",)
 """Names of the distance between points."""
+CELL, MISSING = ("cellsize",), ("nodata_value",)
+"""Names of the distance between points and of the height of points that are missing, in grids of geographic systems."""
 UNIT = ("value units", "data unit")
 """Names of the unit of heights."""
 FACTOR = re.compile(r"height conversion factor \(-> (?P<unit>\S+)\)")
 """Name of what a height is multiplied by."""
 STATEMENT = re.compile(r"(?P<name>[^:=]+?)\s*[:=]\s*(?P<value>.+)")
+CELLS = re.compile(r"(?P<name>ncols|nrows|cellsize|nodata_value)\s+(?P<value>\S+)", re.IGNORECASE)
 PAIRS = re.compile(r"(\w+)\s*=\s*(\S+)")
 LENGTH = re.compile(r"(?P<number>[-+]?[\d.,]+(?:[eE][-+]?\d+)?)\s*(?P<unit>[^\W\d]\S*)")
 IN_BRACKETS = re.compile(r"[\[(]([^\])]*)[\])]")
@@ -54,23 +57,30 @@ class Header:
     mark: str
 
     @cached_property
-    def _statements(self) -> dict[str, tuple[int, str]]:
-        """Number of the line and value of each statement, by its name in small letters."""
-        return {name.strip().lower(): (line, value.strip()) for line, name, value in self._read_statements()}
+    def _statements(self) -> dict[str, list[tuple[int, str]]]:
+        """Number of the line and value of all statements with a name, by that name in small letters."""
+        statements: dict[str, list[tuple[int, str]]] = {}
+        for line, name, value in self._read_statements():
+            statements.setdefault(name.strip().lower(), []).append((line, value.strip()))
+        return statements
 
     def _read_statements(self) -> Iterator[tuple[int, str, str]]:
         """Yield the line, name and value of each statement; several stand in a line like `h=305 w=75`."""
         for line, text in self.lines:
             pairs = PAIRS.findall(text)
-            statement = STATEMENT.fullmatch(text)
+            statement = STATEMENT.fullmatch(text) or CELLS.fullmatch(text)
             if len(pairs) > 1:
                 yield from ((line, *pair) for pair in pairs)
             elif statement:
                 yield line, statement["name"], statement["value"]
 
     def _statement(self, names: Sequence[str]) -> tuple[int, str] | None:
-        """Return the line and value of a statement by one of its names, or None."""
-        return next((self._statements[name] for name in names if name in self._statements), None)
+        """Return the line and value of a statement by one of its names, or None; InputError where two differ."""
+        (first, value), *others = [entry for name in names for entry in self._statements.get(name, [])] or [(0, "")]
+        for line, text in others:
+            if text != value:
+                raise InputError(f"line {line}", text, f"{value}, as line {first} says", self.file)
+        return (first, value) if first else None
 
     def _length(self, names: Sequence[str]) -> float | None:
         """Return a length that is stated with its unit, nm, or None."""
@@ -91,7 +101,18 @@ class Header:
         except ValueError:
             raise InputError(f"line {line}", text, "a number", self.file) from None
 
-    def steps(self, shape: tuple[int, ...]) -> tuple[float | None, ...]:
+    @property
+    def has_cells(self) -> bool:
+        """Whether the heights are a grid of a geographic information system, whose first row has the largest y."""
+        return self._statement(CELL) is not None
+
+    @property
+    def missing(self) -> float | None:
+        """Height that stands for points that are missing, or None."""
+        stated = self._statement(MISSING)
+        return None if stated is None else self._number(*stated)
+
+    def steps(self, shape: tuple[int, ...], unit: str | None) -> tuple[float | None, ...]:
         """Return the stated spacing along y and x of heights of a shape (ny, nx), nm; None where none is stated."""
         for names, points, key in ((ROWS, shape[0], "rows"), (COLUMNS, shape[1], "columns")):
             stated = self._statement(names)
@@ -100,7 +121,11 @@ class Header:
                     "heights", Words(f"{points} {key}"), f"{stated[1]}, as line {stated[0]} says", self.file
                 )
         lengths = self._length(HEIGHT), self._length(WIDTH)
-        spacing = self._length(SPACING)
+        spacing, cell = self._length(SPACING), self._statement(CELL)
+        if cell is not None:
+            spacing = io.positive_spacing(
+                self._number(*cell) * io.unit_factor(CELL[0], None, unit, self.file), self.file
+            )
         return tuple(
             spacing if length is None else length / points for length, points in zip(lengths, shape, strict=True)
         )
@@ -124,10 +149,12 @@ class Header:
 
     def height_factor(self, stated: str | None, unit: str | None) -> float:
         """Return the nanometres in a height: by a stated factor, a stated unit, or else by `unit`."""
-        for name, (line, text) in self._statements.items():
+        for name in self._statements:
             factor = FACTOR.fullmatch(name)
             if factor:
-                return self._number(line, text) * io.unit_factor("heights", factor["unit"], unit, self.file)
+                return self._number(*self._statements[name][0]) * io.unit_factor(
+                    "heights", factor["unit"], unit, self.file
+                )
         named = self._statement(UNIT)
         return io.unit_factor("heights", stated or (named[1] if named else None), unit, self.file)
 

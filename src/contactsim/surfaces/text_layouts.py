@@ -82,7 +82,10 @@ def _convert_line(text: Text, table: Array, unit: str | None, with_gaps: bool) -
 def _convert_grid(text: Text, table: Array, unit: str | None, with_gaps: bool) -> RawHeights:
     """Return a row of heights for each y."""
     scale = text.header.height_factor(next(iter(text.header.column_units(1)), None), unit)
-    return io.real_numbers(table, "heights", text.file, scale, 2), text.header.steps(table.shape)
+    if text.header.missing is not None:
+        table = np.where(table == text.header.missing, np.nan, table)
+    heights = io.real_numbers(table, "heights", text.file, scale, 2)
+    return heights[::-1] if text.header.has_cells else heights, text.header.steps(table.shape, unit)
 
 
 def _fill_a_grid(row_places: Array, column_places: Array) -> bool:
@@ -152,6 +155,6 @@ class Layout(NamedTuple):
     convert: Callable[[Text, Array, str | None, bool], RawHeights]
 
 
-LINE = Layout(range(1, 4), "one to three numbers 1.5, as many as in the first row", _convert_line)
-GRID = Layout(range(2, sys.maxsize), "two or more heights 1.5, as many as in the first row", _convert_grid)
-POINTS = Layout(range(3, 4), "three numbers 1.5: x, y and z", _convert_points)
+LINE = Layout(range(1, 4), "one to three in each row", _convert_line)
+GRID = Layout(range(2, sys.maxsize), "two or more heights in each row", _convert_grid)
+POINTS = Layout(range(3, 4), "three in each row: x, y and z", _convert_points)
