@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -152,9 +154,69 @@ def test_the_command_says_how_it_presses_and_doubts_what_is_probably_not_meant(t
     assert "E*: pressures are in GPa" not in text
     main([*press, "1e-3", "100", "--periodic", "--spikes", "2", "--detrend", "none"])
     text = capsys.readouterr().out
-    assert "E* 1 GPa, pressed repeated without end" in text
+    assert "E* 1 GPa, pressed on a half-space, repeated without end" in text
     assert "contact everywhere at 100 GPa and more, which is 100 E*: pressures are in GPa" in text
     assert "% of the points are no spikes: a larger threshold may be meant" in text
+
+
+def test_the_command_doubts_contacts_of_few_points_and_pressures_beyond_the_modulus(tmp_path, capsys):
+    np.save(tmp_path / "scan.npy", np.random.default_rng(0).normal(size=(20, 20)))
+    press = ["press", str(tmp_path / "scan.npy"), "--contact-modulus", "1", "--spacing", "1", "2", "--mean-pressure"]
+    main([*press, "1e-9"])
+    text = capsys.readouterr().out
+    assert "fewer than 10 points in contact up to 1e-09 GPa" in text
+    assert "20 × 20 points on 20 × 40 nm, 1 × 2 nm apart" in text
+    assert "strains are not small" not in text
+    main([*press, "0.5"])
+    text = capsys.readouterr().out
+    assert re.search(r"a largest pressure of [\d.]+ E\* at 0.5 GPa: strains are not small", text)
+    assert "fewer than" not in text
+
+
+def test_the_command_refuses_by_the_names_of_its_options_and_before_it_solves(tmp_path):
+    np.save(tmp_path / "scan.npy", np.full((20, 20), np.nan))
+    np.save(tmp_path / "small.npy", np.eye(4))
+    (tmp_path / "file").write_text("")
+    press = ["press", str(tmp_path / "scan.npy"), "--contact-modulus", "1", "--mean-pressure"]
+    for arguments, message in (
+        (press, r"; or --fill as one of"),
+        (["press", str(tmp_path / "small.npy"), *press[2:]], "small.npy: got shape"),
+        ([*press[:-1], "--figure", str(tmp_path / "file/a.png"), press[-1]], "--figure: got .*: a file in a folder that"),
+    ):
+        with pytest.raises(SystemExit, match=message):
+            main([*arguments, "0.1", "--spacing", "1"])
+    with pytest.raises(SystemExit, match="--mean-pressure: got"):
+        main(["press", str(tmp_path / "small.npy"), *press[2:], "0.1", "0.1", "--spacing", "1"])
+
+
+def test_a_figure_stands_in_a_folder_of_its_own(tmp_path, capsys):
+    np.save(tmp_path / "scan.npy", np.random.default_rng(0).normal(size=(16, 16)))
+    target = tmp_path / "new/folder/contact.png"
+    loads = ["--contact-modulus", "1", "--mean-pressure", "0.1", "--spacing", "1"]
+    main(["press", str(tmp_path / "scan.npy"), *loads, "--figure", str(target)])
+    assert target.stat().st_size > 1000
+
+
+@pytest.mark.parametrize("tolerance", [0.0, 0.2, 1e6, "tight"])
+def test_a_tolerance_that_means_little_is_refused(tolerance):
+    with refused("tolerance", "at most 0.1"):
+        cs.press(rough(64), contact_modulus=1.0, mean_pressure=0.1, spacing=1.0, tolerance=tolerance)
+    with refused("tolerance", "at most 0.1"):
+        cs.characterise(surface(), contact_modulus=1.0, mean_pressures=LOADS, tolerance=tolerance)
+
+
+def test_what_is_no_contact_no_dataset_and_no_body_is_refused():
+    result = cs.press(rough(64), contact_modulus=1.0, mean_pressure=0.1, spacing=1.0)
+    with refused("contact", "`contact` of a result"):
+        cs.find_patches(result)
+    with refused("data", "characterise"):
+        cs.plot_characterisation(result)
+    with refused("lower", "its elasticity"):
+        cs.Scene(surface(), cs.HalfSpace(1.0), cs.HardWall(), cs.pressures([0.1]))
+    with refused("upper", "its surface"):
+        cs.Scene(cs.HalfSpace(1.0), cs.HalfSpace(1.0), cs.HardWall(), cs.pressures([0.1]))
+    with refused("stiffness", "0 or more"):
+        cs.conductance(-1.0, 1.0, (1.0, 1.0))
 
 
 def test_the_figure_has_four_panels_with_bars():
@@ -243,7 +305,7 @@ def test_the_command_presses_two_scans_that_repeat_and_tells_their_conductance(t
         periodic = ["--periodic"] if "small" in more[1] else []
         with pytest.raises(SystemExit, match=message):
             main(["press", str(tmp_path / "one.npy"), *loads, *more, *periodic])
-    assert "both together on 128 × 128 nm: rms height" in text
+    assert "they face each other on 128 × 128 nm, over which pressures are means: rms height" in text
     assert "conductance" in text and "W/(m K nm)" in text
     sum_of_both = cs.Topography(heights + np.roll(heights, (1, 2), (0, 1)), 1.0)
     expected = cs.characterise(sum_of_both, contact_modulus=1.0, mean_pressures=[0.01], periodic=True)
@@ -257,7 +319,7 @@ def test_the_command_presses_a_layer(tmp_path, capsys):
     layer = ["--thickness", "20", "--poisson-ratio", "0.3"]
     main(["press", str(tmp_path / "one.npy"), *loads, *layer, "--ends", "mirror"])
     assert "converged" in capsys.readouterr().out
-    with pytest.raises(SystemExit, match="poisson_ratio"):
+    with pytest.raises(SystemExit, match="--poisson-ratio"):
         main(["press", str(tmp_path / "one.npy"), *loads, *layer[:2], "--ends", "mirror"])
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Sequence
 
 import numpy as np
@@ -15,7 +16,7 @@ from contactsim.errors import InputError, Words, check_option_names, is_number
 from contactsim.interface.hard_wall import HardWall
 from contactsim.observables.conductance import conductance
 from contactsim.simulation import simulate
-from contactsim.single_load import choose_elasticity
+from contactsim.single_load import check_tolerance, choose_elasticity
 from contactsim.solvers.base import HardWallSolver
 from contactsim.status import is_solved
 from contactsim.surfaces.pair import add_heights
@@ -23,6 +24,8 @@ from contactsim.surfaces.shapes import Flat
 from contactsim.surfaces.spectral_moments import nayak_parameter
 from contactsim.surfaces.topography import Topography
 from contactsim.traits import Trait
+
+logger = logging.getLogger(__name__)
 
 NUMBERS = (
     "relative_contact_area_subgrid",
@@ -62,7 +65,8 @@ def characterise(
 
     All is done once more with every second point, of an even number each way. The change is the error: of the grid
     where the heights are resolved, and where they are rough down to the spacing, what finer points would add. An error
-    as large as the number says that the spacing decides it.
+    as large as the number says that the spacing decides it. It is not a bound: under heights that are not periodic the
+    pressure along the rim, as under a punch, and along the edges of patches grows with each refinement.
 
     Parameters
     ----------
@@ -83,7 +87,7 @@ def characterise(
     conductivities : (float, float), optional
         Thermal conductivities of both bodies, W/(m K), of which one may be infinite.
     tolerance : float
-        Gap in contact and overlap outside, in grid steps.
+        Gap in contact and overlap outside, in grid steps, as in `contactsim.press`.
     threads : int
         Threads of the transforms.
     periodic, thickness, poisson_ratio, solver
@@ -109,6 +113,9 @@ def characterise(
     loads = np.atleast_1d(np.asarray(mean_pressures, object))
     if loads.ndim != 1 or not loads.size or not all(is_number(value) and value > 0 for value in loads):
         raise InputError("mean_pressures", mean_pressures, "positive numbers, in GPa")
+    if len({*loads.tolist()}) < loads.size:
+        raise InputError("mean_pressures", mean_pressures, "each number once")
+    check_tolerance(tolerance)
     if conductivities is not None:
         conductance(0.0, contact_modulus, conductivities)  # refused before the contact is solved
     elasticity = choose_elasticity(topography, contact_modulus, thickness, poisson_ratio, periodic)
@@ -131,8 +138,13 @@ def characterise(
         return _select_numbers(data, surface, scene.repeats, values)
 
     even = topography.even_part()
-    fine, coarse = numbers_of(topography), numbers_of(even.every_second())
-    base = fine if even is topography else numbers_of(even)
+    fine = numbers_of(topography)
+    logger.info("the same with every second point")
+    coarse = numbers_of(even.every_second())
+    base = fine
+    if even is not topography:
+        logger.info("the same without the last row and column, to compare with every second point")
+        base = numbers_of(even)
     names = [name for name in (*NUMBERS, *OF_HEIGHTS, "nayak_parameter") if name in fine and name not in WITHOUT_ERROR]
     return describe(fine.assign({f"{name}_grid_error": abs(base[name] - coarse[name]) for name in names}))
 

@@ -106,7 +106,9 @@ def _add_set(command: argparse.ArgumentParser) -> None:
 
 def _add_press(press: argparse.ArgumentParser) -> None:
     """Add the options of `contactsim press`."""
-    press.add_argument("file", help="heights along a line or over an area: npy, npz, csv, txt, xyz, dat, nc, others")
+    press.add_argument(
+        "file", help="heights along a line or over an area: npy, npz, mat, csv, txt, xyz, dat, asc, nc, others"
+    )
     _add_scan(press.add_argument_group("scan"))
     _add_bodies(press.add_argument_group("bodies and pressure"))
     results = press.add_argument_group("results")
@@ -123,7 +125,9 @@ def _add_scan(scan: Any) -> None:
     scan.add_argument("--unit", help="unit of lengths to which the file gives none, such as um")
     scan.add_argument("--variable", help="name of the heights in the file")
     scan.add_argument("--fill", help="how missing points are filled: linear, nearest or lowest")
-    scan.add_argument("--detrend", help="what is subtracted: none, mean, linear or plane (default), quadratic")
+    scan.add_argument(
+        "--detrend", help="what is subtracted: none, mean, linear (default of a line), plane (of an area) or quadratic"
+    )
     scan.add_argument("--level", default="none", help="how scan lines are levelled: none, median or steps")
     scan.add_argument("--spikes", type=float, metavar="N", help="standard deviations beyond which a point is replaced")
     scan.add_argument("--ends", default="none", help="make the heights repeat: mirror, window, or tilt on a line")

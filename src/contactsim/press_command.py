@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
@@ -34,6 +35,10 @@ COLUMNS = {
 """Numbers that are printed of heights that were pressed: their heads and units."""
 MANY_SPIKES = 0.01
 """Share of the points above which they are hardly spikes."""
+FEW_POINTS = 10
+"""Points in contact below which their spacing decides every number."""
+UNEQUAL = 1e-3
+"""Relative difference of the spacings along y and x from which on it is told."""
 PLAIN_EXPONENTS = range(-3, 5)
 """Powers of ten of numbers that are written without them."""
 
@@ -44,6 +49,33 @@ def press_file(options: argparse.Namespace) -> None:
         raise InputError("--figure", options.figure, f"a name ending in one of {', '.join(DRAWN)}")
     if options.output and Path(options.output).suffix != ".nc":
         raise InputError("--output", options.output, "a name ending in .nc")
+    for option in ("figure", "output"):
+        if getattr(options, option):
+            _make_folder(Path(getattr(options, option)), f"--{option}")
+    try:
+        _press_file(options)
+    except InputError as error:
+        raise _in_options(error, options) from error
+
+
+def _make_folder(file: Path, option: str) -> None:
+    """Make the folder of a file to be written, before anything is solved; InputError where that is impossible."""
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(option, str(file), f"a file in a folder that can be made ({error.strerror})") from error
+
+
+def _in_options(error: InputError, options: argparse.Namespace) -> InputError:
+    """Return an error with the names that arguments of functions have as options."""
+    names = {"mean_pressures": "mean_pressure"} | {name: name for name in vars(options)}
+    key = f"--{names[error.key].replace('_', '-')}" if error.key in names else error.key
+    allowed = re.sub(r"`(\w+)`", lambda name: f"--{name[1].replace('_', '-')}", error.allowed)
+    return InputError(key, error.value, allowed, error.file)
+
+
+def _press_file(options: argparse.Namespace) -> None:
+    """Press a file as checked options say."""
     heights = _read_heights(options.file, options)
     other = None if options.other is None else _mirror(_read_heights(options.other, options))
     try:
@@ -60,7 +92,8 @@ def press_file(options: argparse.Namespace) -> None:
             poisson_ratio=options.poisson_ratio,
         )
     except InputError as error:
-        raise error.renamed("other", f"--other {options.other}").renamed("offset", "--offset") from error
+        renamed = error.renamed("other", f"--other {options.other}").renamed("topography", Path(options.file).name)
+        raise renamed from error
     described = _describe_heights([heights, other], data), _describe_pressing(heights, options)
     sys.stdout.write("\n".join([*described, *_doubts(heights, data), _press_table(data)]) + "\n")
     if options.output:
@@ -111,38 +144,54 @@ def _describe_heights(scans: Sequence[Topography | None], data: xr.Dataset) -> s
     bodies = [heights for heights in scans if heights is not None]
     text = "; ".join(_describe_scan(heights) for heights in bodies)
     size = " × ".join(f"{float(data[name]):.4g}" for name in ("length_y", "length") if name in data)
-    text += f"; both together on {size} nm:" if len(bodies) > 1 else ";"
+    text += f"; they face each other on {size} nm, over which pressures are means:" if len(bodies) > 1 else ";"
     text += f" rms height {_with_error(data, 'rms_height')} nm, rms gradient {_with_error(data, 'rms_gradient')}"
-    return "\n".join([text, *(f"Beyond what the model holds for: {words}" for words in describe_excess(data))])
+    return "\n".join(
+        [text, *(f"Beyond what the model holds for: {words} of the loads" for words in describe_excess(data))]
+    )
 
 
 def _describe_scan(heights: Topography) -> str:
     """Return points, size and repairs of heights in words."""
     size = " × ".join(f"{length:.4g}" for length in heights.lengths)
     text = f"{' × '.join(map(str, heights.values.shape))} points on {size} nm"
+    if max(heights.spacing) > (1 + UNEQUAL) * min(heights.spacing):
+        text += f", {' × '.join(f'{step:.4g}' for step in heights.spacing)} nm apart"
     repairs = {"filled": heights.filled, "replaced as spikes": heights.spikes}
     return text + "".join(f", {share:.2%} of the points {what}" for what, share in repairs.items() if share)
 
 
 def _describe_pressing(heights: Topography, options: argparse.Namespace) -> str:
     """Return how heights are pressed, in words."""
-    repeats = heights.periodic or options.periodic
-    ends = "repeated without end" if repeats else "alone on a half-space, not repeated"
+    repeats = heights.periodic or options.periodic or options.thickness is not None
+    body = "a half-space" if options.thickness is None else f"a layer of {options.thickness:g} nm on a rigid base"
+    ends = f"on {body}, repeated without end" if repeats else f"alone on {body}, not repeated"
     detrend = options.detrend or USUAL_DETREND[heights.values.ndim]
     removed = "" if detrend == "none" else f", {detrend} subtracted"
     return f"E* {options.contact_modulus:g} GPa{removed}, pressed {ends}"
 
 
 def _doubts(heights: Topography, data: xr.Dataset) -> list[str]:
-    """Return in words what is probably not meant: spikes that are many, and pressures that close all gaps."""
+    """Return in words what is probably not meant: many spikes, a contact of few points, too large a pressure."""
     doubts = []
     if heights.spikes > MANY_SPIKES:
         doubts.append(f"{heights.spikes:.2%} of the points are no spikes: a larger threshold may be meant")
+    points = data.relative_contact_area_subgrid.values * heights.values.size
+    few = data.mean_pressure.values[points < FEW_POINTS]
+    if few.size:
+        doubts.append(f"fewer than {FEW_POINTS} points in contact up to {few.max():g} GPa: their spacing decides all")
+    ratio = data.max_pressure / data.contact_modulus
+    strained = ratio[ratio > 1]
+    if strained.size:
+        words = f"a largest pressure of {float(strained[0]):.3g} E* at {float(strained.mean_pressure[0]):g} GPa"
+        doubts.append(f"{words}: strains are not small; pressures and E* are in GPa")
+    if np.isnan(data.mean_gap_grid_error.values[is_solved(data.status).values]).any():
+        doubts.append("± nan: with every second point left out this load has no solution")
     closed = data.mean_pressure[data.relative_contact_area_subgrid.values >= 1]
     if closed.size:
         first = float(closed[0])
-        ratio = first / float(data.contact_modulus)
-        doubts.append(f"contact everywhere at {first:g} GPa and more, which is {ratio:.3g} E*: pressures are in GPa")
+        words = f"contact everywhere at {first:g} GPa and more, which is {first / float(data.contact_modulus):.3g} E*"
+        doubts.append(f"{words}: pressures are in GPa")
     return doubts
 
 
@@ -163,7 +212,7 @@ def _press_table(data: xr.Dataset) -> str:
     ]
     widths = [max(map(len, column)) for column in zip(heads, units, *rows, strict=True)]
     lines = [align_right(row, widths).rstrip() for row in (heads, units, *rows)]
-    return "\n".join([*lines, "±: how much a number changes if every second point is left out"])
+    return "\n".join([*lines, "±: how much a number changes if every second point is left out; not a bound"])
 
 
 def _with_error(data: xr.Dataset, name: str) -> str:

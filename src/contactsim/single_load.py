@@ -14,7 +14,7 @@ from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.base import Elasticity
 from contactsim.elasticity.half_space import FreeHalfSpace, HalfSpace
 from contactsim.elasticity.layer import Layer
-from contactsim.errors import InputError, check_option_names
+from contactsim.errors import InputError, check_option_names, is_positive
 from contactsim.interface.hard_wall import HardWall
 from contactsim.solvers.base import HardWallSolver, Result, check_solver, solve
 from contactsim.solvers.registry import default_solver, make_solver
@@ -22,6 +22,9 @@ from contactsim.surfaces.pair import add_heights
 from contactsim.surfaces.shapes import Flat
 from contactsim.surfaces.topography import Topography
 from contactsim.traits import Trait
+
+MAX_TOLERANCE = 0.1
+"""Largest tolerance, in grid steps: with larger gaps in contact and overlaps the contact set means little."""
 
 
 @check_option_names
@@ -71,8 +74,9 @@ def press(
     poisson_ratio : float, optional
         Poisson's ratio of the layer, above -1 and at most 0.5; a half-space has none.
     tolerance : float
-        Gap in contact and overlap outside, in grid steps (the typical height difference of neighbouring points). Close
-        to full contact, and on flat tops at a light load, choose it well below the mean gap in such steps.
+        Gap in contact and overlap outside, in grid steps (the typical height difference of neighbouring points), at
+        most 0.1. Close to full contact, and on flat tops at a light load, choose it well below the mean gap in such
+        steps.
     solver : str or solver, optional
         Name of a solver, or a solver with options of its own; the default solver of the dimension where None.
     threads : int
@@ -94,6 +98,7 @@ def press(
     InputError
         For an input that cannot be used.
     """
+    check_tolerance(tolerance)
     elasticity = choose_elasticity(heights, contact_modulus, thickness, poisson_ratio, periodic)
     repeats = Trait.FREE not in elasticity.traits
     topographies = [body for body in (heights, other) if isinstance(body, Topography)]
@@ -124,6 +129,12 @@ def _read_heights(
         raise error.renamed("heights", name) from error
     except ValueError as error:
         raise InputError(name, heights, "two or more real numbers, in 1D, or rows of them, in 2D") from error
+
+
+def check_tolerance(tolerance: float) -> None:
+    """Raise an InputError for a tolerance that is not positive or too large."""
+    if not (is_positive(tolerance) and tolerance <= MAX_TOLERANCE):
+        raise InputError("tolerance", tolerance, f"a positive number, at most {MAX_TOLERANCE:g} grid steps")
 
 
 def choose_elasticity(

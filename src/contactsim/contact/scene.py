@@ -20,6 +20,7 @@ from contactsim.contact.loading import LoadPath
 from contactsim.contact.problem_kind import ProblemKind
 from contactsim.contact.scene_checks import check_effects, check_scene
 from contactsim.elasticity.base import Elasticity
+from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.interface.base import Effect, Law, reads_slip
 from contactsim.interface.pairing import ALIGNED, Pairing
@@ -84,6 +85,12 @@ class Scene:
         path: LoadPath,
         pairing: Pairing = ALIGNED,
     ) -> None:
+        for name, body, part, allowed in (
+            ("lower", lower, "compliance", "a Body or, for a flat one, its elasticity"),
+            ("upper", upper, "heights", "a Body or, for a rigid one, its surface"),
+        ):
+            if not (isinstance(body, Body) or hasattr(body, part)):
+                raise InputError(name, body, allowed)
         upper_body = upper if isinstance(upper, Body) else Body(upper)
         lower_body = lower if isinstance(lower, Body) else Body(Flat.facing(upper_body.surface), lower)
         acting = tuple(effects) if isinstance(effects, (tuple, list)) else (effects,)

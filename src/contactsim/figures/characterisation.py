@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from contactsim.errors import InputError, Words
 from contactsim.figures import style
 from contactsim.figures.parts.scale_bar import fitting_unit
 from contactsim.reference.persson import persson_area
@@ -33,6 +34,8 @@ def plot_characterisation(data: xr.Dataset, *, title: str = "", size: tuple[floa
     matplotlib.figure.Figure
         Four panels against the mean pressure; bars are changes on halving the grid.
     """
+    if not (isinstance(data, xr.Dataset) and "mean_gap_grid_error" in data):
+        raise InputError("data", Words(type(data).__name__), "a dataset that contactsim.characterise returned")
     solved = data.isel(mean_pressure=np.flatnonzero(is_solved(data.status)))
     factor, unit = fitting_unit(float(solved.mean_gap.max()) if solved.mean_gap.size else 1.0, "nm")
     with mpl.rc_context(style.RC_PARAMS):

@@ -38,5 +38,8 @@ def conductance(stiffness: ArrayLike, contact_modulus: float, conductivities: tu
     pair = tuple(conductivities) if isinstance(conductivities, tuple | list) else ()
     if len(pair) != 2 or not all(is_positive(value) or value == np.inf for value in pair) or min(pair) == np.inf:
         raise InputError("conductivities", conductivities, "a pair of positive numbers, at most one of them infinite")
-    values = 2 * np.asarray(stiffness, float) / (contact_modulus * (1 / pair[0] + 1 / pair[1]))
+    stiffnesses = np.asarray(stiffness, float)
+    if (stiffnesses < 0).any():
+        raise InputError("stiffness", stiffness, "0 or more")
+    values = 2 * stiffnesses / (contact_modulus * (1 / pair[0] + 1 / pair[1]))
     return values if values.ndim else float(values)

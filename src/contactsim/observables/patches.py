@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from contactsim.errors import InputError, Words
 from contactsim.grid import Array
 
 AREA_EDGES = 2.0 ** np.arange(-30, 1)
@@ -59,6 +60,10 @@ def find_patches(contact: Array, periodic: bool = True) -> Patches:
     periodic : bool
         Whether patches go on at the other end.
     """
+    contact = np.asarray(contact)
+    if contact.dtype != bool or contact.ndim not in (1, 2):
+        value = Words(f"shape {contact.shape} of {contact.dtype}")
+        raise InputError("contact", value, "an array of bool in 1D or 2D, such as `contact` of a result")
     from scipy.ndimage import label  # takes longer to import than most contacts to label
 
     labels_inside, count = label(contact)
