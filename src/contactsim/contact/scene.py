@@ -54,8 +54,8 @@ class Scene:
 
     Parameters
     ----------
-    lower : Body or Elasticity
-        Lower body; an elasticity stands for a flat body.
+    lower : Body, Elasticity or None
+        Lower body; an elasticity stands for a flat body, None for a rigid flat one.
     upper : Body or Surface
         Upper body; a surface stands for a rigid body.
     effects : Effect or sequence of Effect
@@ -85,12 +85,10 @@ class Scene:
         path: LoadPath,
         pairing: Pairing = ALIGNED,
     ) -> None:
-        for name, body, part, allowed in (
-            ("lower", lower, "compliance", "a Body or, for a flat one, its elasticity"),
-            ("upper", upper, "heights", "a Body or, for a rigid one, its surface"),
-        ):
-            if not (isinstance(body, Body) or hasattr(body, part)):
-                raise InputError(name, body, allowed)
+        if not (lower is RIGID or isinstance(lower, Body) or hasattr(lower, "compliance")):
+            raise InputError("lower", lower, "a Body or, for a flat one, its elasticity")
+        if not (isinstance(upper, Body) or hasattr(upper, "heights")):
+            raise InputError("upper", upper, "a Body or, for a rigid one, its surface")
         upper_body = upper if isinstance(upper, Body) else Body(upper)
         lower_body = lower if isinstance(lower, Body) else Body(Flat.facing(upper_body.surface), lower)
         acting = tuple(effects) if isinstance(effects, (tuple, list)) else (effects,)
