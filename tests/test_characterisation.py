@@ -181,12 +181,25 @@ def test_the_command_refuses_by_the_names_of_its_options_and_before_it_solves(tm
     for arguments, message in (
         (press, r"; or --fill as one of"),
         (["press", str(tmp_path / "small.npy"), *press[2:]], "small.npy: got shape"),
-        ([*press[:-1], "--figure", str(tmp_path / "file/a.png"), press[-1]], "--figure: got .*: a file in a folder that"),
+        ([*press[:-1], "--figure", str(tmp_path / "file/a.png"), press[-1]], "--figure: got .*: a file in a folder"),
     ):
         with pytest.raises(SystemExit, match=message):
             main([*arguments, "0.1", "--spacing", "1"])
     with pytest.raises(SystemExit, match="--mean-pressure: got"):
         main(["press", str(tmp_path / "small.npy"), *press[2:], "0.1", "0.1", "--spacing", "1"])
+
+
+def test_two_scans_may_have_units_of_their_own(tmp_path, capsys):
+    heights = np.random.default_rng(0).normal(size=32)
+    np.savetxt(tmp_path / "a.csv", np.c_[np.arange(32), heights], delimiter=",", header="x [nm], z [nm]", comments="")
+    np.savetxt(tmp_path / "b.csv", np.c_[np.arange(32), heights] / 1e3, delimiter=",")
+    press = ["press", str(tmp_path / "a.csv"), "--other", str(tmp_path / "b.csv"), "--contact-modulus", "1"]
+    main([*press, "--mean-pressure", "0.1", "--other-unit", "um"])
+    assert "32 points on 32 nm; 32 points on 32 nm" in capsys.readouterr().out
+    with pytest.raises(SystemExit, match="--unit: got 'um'"):
+        main([*press, "--mean-pressure", "0.1", "--unit", "um"])
+    with pytest.raises(SystemExit, match="--other-unit: got 'um'; allowed: none without --other"):
+        main([*press[:2], *press[4:], "--mean-pressure", "0.1", "--other-unit", "um"])
 
 
 def test_a_figure_stands_in_a_folder_of_its_own(tmp_path, capsys):

@@ -135,6 +135,7 @@ def _add_scan(scan: Any) -> None:
     scan.add_argument("--periodic", action="store_true", help=periodic)
     other = "scan of the other body, seen from outside it; it is mirrored along x and pressed on"
     scan.add_argument("--other", metavar="FILE", help=other)
+    scan.add_argument("--other-unit", metavar="UNIT", help="the same as --unit for the other scan, default --unit")
     offset = "points by which the other scan is moved, along x or along y and x"
     scan.add_argument("--offset", type=int, nargs="+", metavar="N", help=offset)
 

@@ -76,8 +76,11 @@ def _in_options(error: InputError, options: argparse.Namespace) -> InputError:
 
 def _press_file(options: argparse.Namespace) -> None:
     """Press a file as checked options say."""
-    heights = _read_heights(options.file, options)
-    other = None if options.other is None else _mirror(_read_heights(options.other, options))
+    heights = _read_heights(options.file, options, options.unit)
+    if options.other is None and options.other_unit is not None:
+        raise InputError("other_unit", options.other_unit, "none without --other")
+    unit = options.unit if options.other_unit is None else options.other_unit
+    other = None if options.other is None else _mirror(_read_heights(options.other, options, unit))
     try:
         data = characterise(
             heights,
@@ -117,12 +120,12 @@ def _files_text(options: argparse.Namespace) -> str:
     return files if options.variable is None else f"{files}, {options.variable}"
 
 
-def _read_heights(file: str, options: argparse.Namespace) -> Topography:
+def _read_heights(file: str, options: argparse.Namespace, unit: str | None) -> Topography:
     """Return the heights of a file, prepared as the options say."""
     raw = read_topography(
         file,
         spacing=_one_or_pair(options.spacing),
-        unit=options.unit,
+        unit=unit,
         variable=options.variable,
         fill=options.fill,
     )

@@ -249,6 +249,11 @@ def test_a_grid_of_a_geographic_system_is_read_from_its_lowest_row_with_what_is_
     refusal("spacing", file, lambda: read_topography(file, unit="m", fill="nearest", spacing=10.0))
 
 
+def test_a_negative_width_is_refused_with_its_line(tmp_path: Path) -> None:
+    file = write(tmp_path, "# Width: -320 nm|1 2|3 4", ".txt")
+    assert refusal("line 1", file, lambda: read_topography(file, **AREA_NM)).value == "-320 nm"
+
+
 def test_two_statements_that_differ_are_refused(tmp_path: Path) -> None:
     file = write(tmp_path, "# Value units: um|# Value units: nm|1 2|3 4", ".txt")
     assert (

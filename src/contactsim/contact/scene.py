@@ -79,7 +79,7 @@ class Scene:
 
     def __init__(
         self,
-        lower: Body | Elasticity,
+        lower: Body | Elasticity | None,
         upper: Body | Surface,
         effects: Effect | Sequence[Effect],
         path: LoadPath,

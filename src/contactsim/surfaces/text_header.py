@@ -91,8 +91,10 @@ class Header:
         length = LENGTH.fullmatch(text)
         if length is None:
             raise InputError(f"line {line}", text, "a number and its unit, like 12.3 µm", self.file)
-        value = self._number(line, length["number"]) * io.unit_factor(names[0], length["unit"], None, self.file)
-        return io.positive_spacing(value, self.file)
+        number = self._number(line, length["number"])
+        if not number > 0:
+            raise InputError(f"line {line}", text, "a positive length", self.file)
+        return number * io.unit_factor(names[0], length["unit"], None, self.file)
 
     def _number(self, line: int, text: str) -> float:
         """Return a number with a decimal point or comma."""
