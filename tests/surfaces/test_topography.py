@@ -249,6 +249,13 @@ def test_a_grid_of_a_geographic_system_is_read_from_its_lowest_row_with_what_is_
     refusal("spacing", file, lambda: read_topography(file, unit="m", fill="nearest", spacing=10.0))
 
 
+@pytest.mark.parametrize("names", ["x/um z/nm", "# x/um z/nm", "x / um, z / nm"])
+def test_units_behind_a_slash_are_those_of_the_columns(tmp_path: Path, names: str) -> None:
+    mark = "," if "," in names else " "
+    file = write(tmp_path, f"{names}|0{mark}1|0.5{mark}2|1{mark}4", ".txt")
+    same(read_topography(file), np.array([1.0, 2.0, 4.0]), (500.0,))
+
+
 def test_a_negative_width_is_refused_with_its_line(tmp_path: Path) -> None:
     file = write(tmp_path, "# Width: -320 nm|1 2|3 4", ".txt")
     assert refusal("line 1", file, lambda: read_topography(file, **AREA_NM)).value == "-320 nm"

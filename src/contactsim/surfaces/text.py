@@ -16,7 +16,7 @@ import numpy as np
 from contactsim.errors import NOTHING, InputError, Words
 from contactsim.grid import Array
 from contactsim.surfaces import io
-from contactsim.surfaces.text_header import Header, bracketed_units
+from contactsim.surfaces.text_header import Header, named_units
 
 MAX_HEADER_LINES = 1000
 """Most lines before the numbers."""
@@ -185,7 +185,7 @@ def _names_of_columns(before: Sequence[Line], mark: str) -> tuple[int, str]:
     candidates = [line for line in before if not line.is_comment] or before
     if candidates:
         number, text, is_comment = candidates[-1]
-        units = bracketed_units(text)
+        units = named_units(text)
         is_named = not is_comment or (bool(units) and all(unit in io.UNITS for unit in units))
         if is_named and "=" not in text and set(_numbers(text, mark, ".")) == {None}:
             return number, text

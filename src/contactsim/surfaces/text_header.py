@@ -32,7 +32,7 @@ STATEMENT = re.compile(r"(?P<name>[^:=]+?)\s*[:=]\s*(?P<value>.+)")
 CELLS = re.compile(r"(?P<name>ncols|nrows|cellsize|nodata_value)\s+(?P<value>\S+)", re.IGNORECASE)
 PAIRS = re.compile(r"(\w+)\s*=\s*(\S+)")
 LENGTH = re.compile(r"(?P<number>[-+]?[\d.,]+(?:[eE][-+]?\d+)?)\s*(?P<unit>[^\W\d]\S*)")
-IN_BRACKETS = re.compile(r"[\[(]([^\])]*)[\])]")
+IN_BRACKETS, BEHIND_SLASH = re.compile(r"[\[(]([^\])]*)[\])]"), re.compile(r"\w\s*/\s*([^\W\d][^\s,;]*)")
 
 
 @dataclass(frozen=True)
@@ -135,7 +135,7 @@ class Header:
     def column_units(self, columns: int) -> list[str]:
         """Return the units of all columns where they are named, like `x [um]` or `Lateral um`; InputError for some."""
         line, text = self.named
-        units = bracketed_units(text) or self._last_words(columns)
+        units = named_units(text) or self._last_words(columns)
         if len(units) not in (0, columns):
             raise InputError(f"line {line}", text, f"a unit for each of {columns} columns, or none", self.file)
         return units
@@ -161,6 +161,7 @@ class Header:
         return io.unit_factor("heights", stated or (named[1] if named else None), unit, self.file)
 
 
-def bracketed_units(text: str) -> list[str]:
-    """Return what stands in brackets in the names of columns, like `x [um]`."""
-    return IN_BRACKETS.findall(text)
+def named_units(text: str) -> list[str]:
+    """Return what stands in brackets in the names of columns, like `x [um]`, or the units like that of `x/um`."""
+    behind: list[str] = BEHIND_SLASH.findall(text)
+    return IN_BRACKETS.findall(text) or (behind if all(unit in io.UNITS for unit in behind) else [])
