@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.markers import CARETUPBASE
@@ -19,10 +20,11 @@ SOLVERS = {
     "tamaas": ("Polonsky–Keer, tamaas", style.PAIRS),
 }
 FIGURE = {
-    "size": [9.0, 3.8],
+    "size": [9.0, 6.8],
+    "panels": 3,
     "title": "Surface contacts: what a solution costs",
-    "caption": f"CPU time of one load, to 1e-6 grid steps, over that of one real transform of the heights by scipy, "
-    f"against reduced pressure; arrowheads: not solved in {CAP} s.",
+    "caption": f"CPU time of one load, to 1e-6 grid steps, over that of a real transform of the heights by scipy; "
+    f"arrowheads: not solved in {CAP} s.",
 }
 BEGIN, END = "<!-- tables: written by surface_solvers.py -->", "<!-- end of tables of surfaces -->"
 COLUMNS = ("H", "points", "p*", "solver", "relative area", "certificate", "transforms", "CPU s", "÷ one transform")
@@ -64,23 +66,28 @@ def found(area: float, certificate: float, transforms: float, seconds: float, pe
 
 
 def draw(rows: pd.DataFrame, path: Path) -> None:
-    """A panel for each size."""
+    """A panel for each size, and the legend in the last place."""
     footer = "surfaces of rough_surface in config/ch3.yaml · one thread · what finished is certified by recomputation"
-    figure, panels = empty_figure(FIGURE | {"panels": rows.points.nunique()}, footer)
-    for axes, (points, group) in zip(panels, rows.groupby("points"), strict=False):
-        loads(axes, group)
-        axes.set(xlabel="reduced pressure $p^*$", ylabel="CPU time, in transforms of the heights")
+    sizes = sorted(set(rows.points))
+    figure, places = empty_figure(FIGURE, footer, rows=len(sizes) // FIGURE["panels"] + 1)
+    panels, rest = places[: len(sizes)], places[len(sizes) :]
+    for axes, points in zip(panels, sizes, strict=True):
+        loads(axes, rows[rows.points == points])
+        axes.set_ylabel("CPU time, in transforms of the heights")
         axes.set_title(f"{points} × {points} points", fontsize=9)
+        axes.label_outer()
+    for axes in panels[-FIGURE["panels"] :]:  # no panel below
+        axes.tick_params(labelbottom=True)
+        axes.set_xlabel("reduced pressure $p^*$")
     style.add_letters(panels)
-    bottom, top = (pick(axes.get_ylim()[k] for axes in panels) for k, pick in ((0, min), (1, max)))
+    limits = np.array([[axes.get_xlim(), axes.get_ylim()] for axes in panels])
     for axes in panels:
-        axes.set_ylim(bottom, top * 6)  # room for the legend
+        axes.set(xlim=(limits[:, 0].min(), limits[:, 0].max()), ylim=(limits[:, 1].min(), limits[:, 1].max()))
+    for axes in rest:
+        axes.axis("off")
     colours = dict(SOLVERS[name] for name in ("ours", *sorted(set(rows.solver))))
-    panels[0].legend(
-        loc="upper left",
-        ncols=2,
-        handles=style.colour_handles(colours) + style.hurst_handles(sorted(set(rows.hurst_exponent))),
-    )
+    handles = style.colour_handles(colours) + style.hurst_handles(sorted(set(rows.hurst_exponent)))
+    rest[-1].legend(loc="center", handles=handles)
     figure.savefig(path)
 
 
