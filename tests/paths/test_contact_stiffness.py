@@ -20,8 +20,12 @@ def area(points=64):
     return cs.SelfAffine(float(points), 0.8, points / 4, 8.0, 1.0, dimensions=2, seed=1).heights(points)
 
 
-@pytest.mark.parametrize("options", [{}, {"periodic": False}, {"thickness": 20.0, "poisson_ratio": 0.3}])
-@pytest.mark.parametrize("pressure", [0.01, 0.1])
+LAYERS = [(1.0, 0.3), (20.0, 0.3), (10.0, 0.49), (5.0, 0.4999), (1.0, 0.5), (3e2, 0.3), (3e3, 0.45), (1e5, 0.3)]
+BODIES = [{}, {"periodic": False}, *({"thickness": thick, "poisson_ratio": ratio} for thick, ratio in LAYERS)]
+
+
+@pytest.mark.parametrize("options", BODIES)
+@pytest.mark.parametrize("pressure", [1e-7, 0.01, 0.1])
 @pytest.mark.parametrize("heights", [rough(256), area()], ids=["line", "surface"])
 def test_it_is_the_difference_quotient_of_load_and_approach(heights, pressure, options):
     stiffness = cs.contact_stiffness(press(heights, pressure, **options))
@@ -110,3 +114,10 @@ def cs_solver():
     from contactsim.solvers.registry import make_solver
 
     return make_solver("polonsky_keer", budget=1, batch=1)
+
+
+def test_a_punch_so_deep_that_the_surface_beside_it_touches_is_pressed_again(monkeypatch):
+    options = {"thickness": 10.0, "poisson_ratio": 0.4999}
+    expected = cs.contact_stiffness(press(area(), 1e-7, **options))
+    monkeypatch.setattr("contactsim.paths.contact_stiffness.THICK", 0.0)
+    assert cs.contact_stiffness(press(area(), 1e-7, **options)) == pytest.approx(expected, rel=1e-5)

@@ -7,6 +7,7 @@ import numpy as np
 from contactsim.contact.loading import LoadPath, load_step
 from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
+from contactsim.contact.steps import LoadStep
 from contactsim.grid import Array
 from contactsim.solvers.base import Result, pressed_scene, solve
 from contactsim.solvers.registry import default_solver
@@ -16,6 +17,8 @@ from contactsim.traits import Trait
 
 DEPTH = 1e3
 """Depth of the surface beside the contact, over the mean distance by which it is pulled down."""
+THICK = 10.0
+"""Compliance of a layer as a whole, over that to its longest wave, from which on its punch is given a load."""
 
 
 def contact_stiffness(result: Result, *, tolerance: float = 1e-7, threads: int = 1) -> float:
@@ -49,27 +52,37 @@ def contact_stiffness(result: Result, *, tolerance: float = 1e-7, threads: int =
         return 0.0
     if contact.all() and Trait.HALF_SPACE in scene.traits:
         return np.inf
-    punch = _punch(scene, contact)
-    step = punch.path.steps[0]
-    heights = punch.upper.surface.heights(contact.shape[-1])
-    problem, scale = pose_hard_wall(punch, step, heights, 1.0, threads)
-    problem.tolerance = tolerance / scale.step
-    pressed = solve(default_solver(punch), problem, scale)
+    step, is_thick = load_step(1.0, None, "load"), False
+    if Trait.LAYER in scene.traits:
+        whole, wave = scene.compliance(np.array([0.0, 2 * np.pi / max(scene.lengths)]))
+        is_thick = whole > THICK * wave
+        step = load_step(None, 1 / whole, "load") if is_thick else step
+    pressed = _press_punch(scene, contact, step, tolerance, threads)
+    while is_thick and pressed.status.solved and (pressed.contact & ~contact).any():  # the surface beside it touches
+        step = load_step(None, step.value / pressed.approach, "load")
+        pressed = _press_punch(scene, contact, step, tolerance, threads)
     return pressed.mean_pressure / pressed.approach if pressed.status.solved else np.nan
 
 
-def _punch(scene: Scene, contact: Array) -> Scene:
-    """Return the scene of a flat punch that has the shape of a contact and approaches by about one unit of length.
+def _press_punch(scene: Scene, contact: Array, step: LoadStep, tolerance: float, threads: int) -> Result:
+    """Return the result of pressing a flat punch that has the shape of a contact.
 
-    A thick layer gives far more as a whole than to any wave. So a layer is given the load for this, and the others the
-    approach.
+    It approaches by one unit of length. A thick layer gives far more as a whole than to any wave: there the approach
+    follows from a load, by which it is one or more.
     """
+    punch = _punch(scene, contact, step)
+    heights = punch.upper.surface.heights(contact.shape[-1])
+    problem, scale = pose_hard_wall(punch, step, heights, 1.0, threads)
+    problem.tolerance = tolerance / scale.step
+    return solve(default_solver(punch), problem, scale)
+
+
+def _punch(scene: Scene, contact: Array, step: LoadStep) -> Scene:
+    """Return the scene of a flat punch that has the shape of a contact."""
     share = contact.mean()
     depth = DEPTH * (1 + share / max(1 - share, 0.5 / contact.size))
     spacing = tuple(length / size for length, size in zip(scene.lengths, contact.shape, strict=True))
     surface = Topography(np.where(contact, 0.0, -depth), spacing)
     lower = Body(Flat.facing(surface), scene.lower.elasticity)
-    uniform = float(scene.compliance(np.zeros(1))[0]) if Trait.LAYER in scene.traits else 0.0
-    step = load_step(None, 1 / uniform, "load") if uniform else load_step(1.0, None, "load")
     path = LoadPath((step,))
     return Scene(lower, Body(surface, scene.upper.elasticity), scene.effects, path)
