@@ -22,6 +22,11 @@ COARSEST = 64
 """Points along a side of aspher's coarsest grid, its default."""
 
 
+def nearest_rung(tolerance: float) -> int:
+    """The place in RUNGS of the tolerance nearest to one."""
+    return int(np.argmin(np.abs(np.log(np.divide(RUNGS, tolerance)))))
+
+
 @dataclass(frozen=True)
 class Settings:
     """aspher's settings that cost and accuracy hang on; the others are its defaults."""
@@ -35,9 +40,9 @@ class Settings:
 
     @classmethod
     def read(cls, text: str) -> Settings:
-        """The settings that were written so."""
+        """The settings that were written so; the tolerance, which was rounded, is one of RUNGS."""
         tolerance, precision, coarse = text.split()
-        return cls(float(tolerance), precision, float(coarse))
+        return cls(RUNGS[nearest_rung(float(tolerance))], precision, float(coarse))
 
 
 def pressed(problem: HardWallProblem, settings: Settings) -> tuple[Array, float]:
@@ -111,8 +116,7 @@ def tightened(problem: HardWallProblem, settings: Settings) -> tuple[Settings, i
 
     Raises ValueError if nothing is certified.
     """
-    first = int(np.argmin([abs(np.log(rung / settings.tolerance)) for rung in RUNGS]))
-    for rung in range(first, len(RUNGS)):
+    for rung in range(nearest_rung(settings.tolerance), len(RUNGS)):
         tried = replace(settings, tolerance=RUNGS[rung])
         if seconds(problem, tried) < float("inf"):
             return tried, rung

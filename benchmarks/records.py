@@ -23,9 +23,17 @@ class Table:
         with path.open(newline="") as lines:
             self._known = {tuple(row[name] for name in case): row for row in csv.DictReader(lines)}
 
+    def known(self, case: dict) -> dict:
+        """The row of a case that is in the file, as text; KeyError where it is not."""
+        return self._known[self._name(case)]
+
+    def _name(self, case: dict) -> tuple[str, ...]:
+        """The columns that name a row, as text."""
+        return tuple(str(case.get(key, "")) for key in self._case)
+
     def row(self, case: dict, find: Callable[[dict], dict]) -> dict:
         """The row of a case, as text."""
-        name = tuple(str(case.get(key, "")) for key in self._case)
+        name = self._name(case)
         if name not in self._known:
             found = find(case)
             found = {key: f"{value:.6g}" if isinstance(value, float) else str(value) for key, value in found.items()}

@@ -76,7 +76,7 @@ def measured_once(plan: Plan, table: Table) -> None:
         return
     for case in (case for points, pressures in LARGE.items() for case in cases(points, pressures)):
         one = case | {"part": "search", "solver": "aspher"}
-        coarser = table.row(one | {"points": case["points"] // 2}, lambda case: {})["settings"]
+        coarser = table.known(one | {"points": case["points"] // 2})["settings"]
         settings = table.row(one, lambda case, coarser=coarser: pairs.tighten(plan, case, coarser))["settings"]
         table.row(one | {"part": "pair"}, lambda case, settings=settings: pairs.compare(plan, case, 1, settings))
 

@@ -171,17 +171,28 @@ def test_the_command_doubts_contacts_of_few_points_and_pressures_beyond_the_modu
     text = capsys.readouterr().out
     assert re.search(r"a largest pressure of [\d.]+ E\* at 0.5 GPa: strains are not small", text)
     assert "fewer than" not in text
+    np.save(tmp_path / "flat.npy", 1e-3 * np.random.default_rng(1).normal(size=(20, 20)))
+    pair = ["--other", str(tmp_path / "flat.npy"), "--offset", "12", "12"]
+    main([*press, "100", "10", "0.02", *pair, "--periodic"])
+    assert "contact everywhere at 10 GPa and more" in capsys.readouterr().out
+    main([*press, "0.02", *pair])
+    assert "fewer than 10 points in contact up to 0.02 GPa" in capsys.readouterr().out
 
 
 def test_the_command_refuses_by_the_names_of_its_options_and_before_it_solves(tmp_path):
     np.save(tmp_path / "scan.npy", np.full((20, 20), np.nan))
     np.save(tmp_path / "small.npy", np.eye(4))
+    np.save(tmp_path / "large.npy", np.eye(16))
     (tmp_path / "file").write_text("")
+    (tmp_path / "folder.nc").mkdir()
     press = ["press", str(tmp_path / "scan.npy"), "--contact-modulus", "1", "--mean-pressure"]
+    small = ["press", str(tmp_path / "small.npy"), *press[2:]]
+    large = ["press", str(tmp_path / "large.npy"), *press[2:-1]]
     for arguments, message in (
         (press, r"; or --fill as one of"),
-        (["press", str(tmp_path / "small.npy"), *press[2:]], "small.npy: got shape"),
-        ([*press[:-1], "--figure", str(tmp_path / "file/a.png"), press[-1]], "--figure: got .*: a file in a folder"),
+        (small, "small.npy: got shape"),
+        ([*large, "--figure", str(tmp_path / "file/a.png"), press[-1]], "--figure: got .*: a file in a folder"),
+        ([*large, "--output", str(tmp_path / "folder.nc"), press[-1]], "--output: got .*this is a folder"),
     ):
         with pytest.raises(SystemExit, match=message):
             main([*arguments, "0.1", "--spacing", "1"])
@@ -196,6 +207,9 @@ def test_two_scans_may_have_units_of_their_own(tmp_path, capsys):
     press = ["press", str(tmp_path / "a.csv"), "--other", str(tmp_path / "b.csv"), "--contact-modulus", "1"]
     main([*press, "--mean-pressure", "0.1", "--other-unit", "um"])
     assert "32 points on 32 nm; 32 points on 32 nm" in capsys.readouterr().out
+    swapped = ["press", press[3], "--other", press[1], *press[4:], "--unit", "um", "--other-unit", "mm"]
+    with pytest.raises(SystemExit, match="--other-unit: got 'mm'"):
+        main([*swapped, "--mean-pressure", "0.1"])
     with pytest.raises(SystemExit, match="--unit: got 'um'"):
         main([*press, "--mean-pressure", "0.1", "--unit", "um"])
     with pytest.raises(SystemExit, match="--other-unit: got 'um'; allowed: none without --other"):
@@ -226,8 +240,13 @@ def test_what_is_no_contact_no_dataset_and_no_body_is_refused():
         cs.plot_characterisation(result)
     with refused("lower", "its elasticity"):
         cs.Scene(surface(), cs.HalfSpace(1.0), cs.HardWall(), cs.pressures([0.1]))
-    with refused("upper", "its surface"):
-        cs.Scene(cs.HalfSpace(1.0), cs.HalfSpace(1.0), cs.HardWall(), cs.pressures([0.1]))
+    for upper in (cs.HalfSpace(1.0), cs.Cylinder):
+        with refused("upper", "its surface"):
+            cs.Scene(cs.HalfSpace(1.0), upper, cs.HardWall(), cs.pressures([0.1]))
+    with refused("elasticity", "or None: rigid"):
+        cs.Body(surface(), surface())
+    with refused("surface", "a Topography"):
+        cs.Body(cs.HalfSpace(1.0))
     with refused("stiffness", "0 or more"):
         cs.conductance(-1.0, 1.0, (1.0, 1.0))
 

@@ -124,6 +124,7 @@ def _add_scan(scan: Any) -> None:
     )
     scan.add_argument("--unit", help="unit of lengths to which the file gives none, such as um")
     scan.add_argument("--variable", help="name of the heights in the file")
+    scan.add_argument("--delimiter", help="separator in a text: a comma, a semicolon, a tab or a blank")
     scan.add_argument("--fill", help="how missing points are filled: linear, nearest or lowest")
     scan.add_argument(
         "--detrend", help="what is subtracted: none, mean, linear (default of a line), plane (of an area) or quadratic"

@@ -49,9 +49,6 @@ def press_file(options: argparse.Namespace) -> None:
         raise InputError("--figure", options.figure, f"a name ending in one of {', '.join(DRAWN)}")
     if options.output and Path(options.output).suffix != ".nc":
         raise InputError("--output", options.output, "a name ending in .nc")
-    for option in ("figure", "output"):
-        if getattr(options, option):
-            _make_folder(Path(getattr(options, option)), f"--{option}")
     try:
         _press_file(options)
     except InputError as error:
@@ -60,6 +57,8 @@ def press_file(options: argparse.Namespace) -> None:
 
 def _make_folder(file: Path, option: str) -> None:
     """Make the folder of a file to be written, before anything is solved; InputError where that is impossible."""
+    if file.is_dir():
+        raise InputError(option, str(file), "the name of a file; this is a folder")
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -79,8 +78,10 @@ def _press_file(options: argparse.Namespace) -> None:
     heights = _read_heights(options.file, options, options.unit)
     if options.other is None and options.other_unit is not None:
         raise InputError("other_unit", options.other_unit, "none without --other")
-    unit = options.unit if options.other_unit is None else options.other_unit
-    other = None if options.other is None else _mirror(_read_heights(options.other, options, unit))
+    other = None if options.other is None else _mirror(_read_other(options))
+    for option in ("figure", "output"):
+        if getattr(options, option):
+            _make_folder(Path(getattr(options, option)), f"--{option}")
     try:
         data = characterise(
             heights,
@@ -127,9 +128,20 @@ def _read_heights(file: str, options: argparse.Namespace, unit: str | None) -> T
         spacing=_one_or_pair(options.spacing),
         unit=unit,
         variable=options.variable,
+        delimiter=options.delimiter,
         fill=options.fill,
     )
     return prepare_topography(raw, options.detrend, options.ends, options.level, options.spikes)
+
+
+def _read_other(options: argparse.Namespace) -> Topography:
+    """Return the heights of the other file, whose unit is that of the first one unless it is given."""
+    if options.other_unit is None:
+        return _read_heights(options.other, options, options.unit)
+    try:
+        return _read_heights(options.other, options, options.other_unit)
+    except InputError as error:
+        raise error.renamed("unit", "other_unit") from error
 
 
 def _one_or_pair(values: list[Any] | None) -> Any:
@@ -179,20 +191,22 @@ def _doubts(heights: Topography, data: xr.Dataset) -> list[str]:
     doubts = []
     if heights.spikes > MANY_SPIKES:
         doubts.append(f"{heights.spikes:.2%} of the points are no spikes: a larger threshold may be meant")
-    points = data.relative_contact_area_subgrid.values * heights.values.size
+    lengths = [float(data[name]) for name in ("length_y", "length") if name in data]  # where two scans face each other
+    size = np.prod([length / step for length, step in zip(lengths, heights.spacing, strict=True)])
+    points = data.relative_contact_area_subgrid.values * size
     few = data.mean_pressure.values[points < FEW_POINTS]
     if few.size:
         doubts.append(f"fewer than {FEW_POINTS} points in contact up to {few.max():g} GPa: their spacing decides all")
     ratio = data.max_pressure / data.contact_modulus
-    strained = ratio[ratio > 1]
+    strained = ratio[ratio > 1].sortby("mean_pressure")
     if strained.size:
         words = f"a largest pressure of {float(strained[0]):.3g} E* at {float(strained.mean_pressure[0]):g} GPa"
         doubts.append(f"{words}: strains are not small; pressures and E* are in GPa")
     if np.isnan(data.mean_gap_grid_error.values[is_solved(data.status).values]).any():
-        doubts.append("± nan: with every second point left out this load has no solution")
+        doubts.append("± nan: of fewer points, with which it is compared, this load has no solution")
     closed = data.mean_pressure[data.relative_contact_area_subgrid.values >= 1]
     if closed.size:
-        first = float(closed[0])
+        first = float(closed.min())
         words = f"contact everywhere at {first:g} GPa and more, which is {first / float(data.contact_modulus):.3g} E*"
         doubts.append(f"{words}: pressures are in GPa")
     return doubts

@@ -224,7 +224,9 @@ def test_what_is_wrong_in_a_wide_row_is_told(tmp_path: Path) -> None:
 
 def test_commas_in_the_numbers_and_between_them_are_refused(tmp_path: Path) -> None:
     file = write(tmp_path, "-3,05,2,75|1,5,-2,25")
-    refusal("delimiter", file, lambda: read_topography(file, **AREA_NM))
+    assert '"," where commas separate' in refusal("delimiter", file, lambda: read_topography(file, **AREA_NM)).allowed
+    assert read_topography(file, **AREA_NM, delimiter=",").values.shape == (2, 4)
+    refusal("delimiter", write(tmp_path, "3,05e-3,2,75e-3|1,2,3,4"), lambda: read_topography(file, **AREA_NM))
     whole = read_topography(write(tmp_path, "3,5,2,75|1,5,-2,25"), **AREA_NM)  # may be so
     assert whole.values.shape == (2, 4)
 
@@ -261,6 +263,44 @@ def test_a_negative_width_is_refused_with_its_line(tmp_path: Path) -> None:
     assert refusal("line 1", file, lambda: read_topography(file, **AREA_NM)).value == "-320 nm"
 
 
+@pytest.mark.parametrize(
+    ("grid", "values"),
+    [
+        ("ncols 2\nnrows 2\ncellsize 30\n1 2\n3 -9999\n", [[3, np.nan], [1, 2]]),
+        ("ncols 3\nnrows 2\ndx 30\ndy 30\nnodata -1\n1 1 1\n1 0 -1\n", [[1, 0, np.nan], [1, 1, 1]]),
+        (
+            "NCOLS 2\nNROWS 2\nCELLSIZE 30\nNODATA_VALUE -3.4028234663852886e+38\n1 2\n3 -3.40282346639e+38\n",
+            [[3, np.nan], [1, 2]],
+        ),
+    ],
+)
+@pytest.mark.parametrize("suffix", [".asc", ".txt"])
+def test_a_small_grid_is_a_grid_and_what_is_missing_may_be_rounded(tmp_path: Path, grid, values, suffix) -> None:
+    file = tmp_path / f"grid{suffix}"
+    file.write_text(grid)
+    read = read_topography(file, unit="nm", fill="nearest")
+    known = np.isfinite(values)
+    np.testing.assert_array_equal(read.values[known], np.array(values)[known])
+    assert (read.spacing, read.filled) == ((30.0, 30.0), pytest.approx(1 / np.size(values)))
+    refusal("dimensions", file, lambda: read_topography(file, unit="nm", dimensions=1))
+    file.write_text(grid.replace("2\n", "3\n", 1))
+    with pytest.raises(InputError):
+        read_topography(file, unit="nm", fill="nearest")
+
+
+def test_another_asc_file_is_one_of_an_instrument(tmp_path: Path) -> None:
+    file = tmp_path / "scan.asc"
+    file.write_text("x-pixels = 2\n1 2\n3 4\n")
+    assert "SurfaceTopography" in str(refusal("path", file, lambda: read_topography(file)))
+
+
+@pytest.mark.parametrize("words", ["# Spring constant 0.2 N/m", "# N/m", "# data/m", "# Field 3 kV/mm"])
+def test_other_units_in_words_before_the_numbers_are_not_those_of_columns(tmp_path: Path, words: str) -> None:
+    file = write(tmp_path, f"{words}|1,2,3|4,5,6")
+    assert read_topography(file, **AREA_NM | {"spacing": 1.0}).values[1, 2] == 6
+    refusal("unit", file, lambda: read_topography(file, dimensions=2, spacing=1.0))
+
+
 def test_two_statements_that_differ_are_refused(tmp_path: Path) -> None:
     file = write(tmp_path, "# Value units: um|# Value units: nm|1 2|3 4", ".txt")
     assert (
@@ -275,22 +315,36 @@ def test_a_matrix_of_matlab_has_a_row_for_each_y(tmp_path: Path) -> None:
     same(read_topography(file, spacing=SPACING))
     savemat(file, {"z": HEIGHTS[0], "dx": 10.0})
     same(read_topography(file, spacing=1.0), HEIGHTS[0], (1.0,))
+    savemat(file, {"z": HEIGHTS, "mask": HEIGHTS > 0, "words": np.array([["a", "b"], ["c", "d"]], object)})
+    same(read_topography(file, spacing=SPACING))
     savemat(file, {"a": HEIGHTS, "b": HEIGHTS})
     refusal("variable", file, lambda: read_topography(file, spacing=1.0))
     same(read_topography(file, spacing=SPACING, variable="b"))
+    for content in (b"", b"abc"):
+        file.write_bytes(content)
+        refusal("path", file, lambda: read_topography(file, spacing=1.0, variable="b"))
 
 
-@pytest.mark.parametrize("cut", [8, 100])
-def test_a_classic_netcdf_file_that_is_cut_off_is_refused(tmp_path: Path, cut: int) -> None:
+FORMATS = "NETCDF3_CLASSIC", "NETCDF3_64BIT_OFFSET", "NETCDF3_64BIT_DATA"
+
+
+@pytest.mark.parametrize("records", [False, True])
+@pytest.mark.parametrize("form", FORMATS)
+def test_a_classic_netcdf_file_that_is_cut_off_is_refused(tmp_path: Path, form: str, records: bool) -> None:
     file = tmp_path / "t.nc"
-    with netCDF4.Dataset(file, "w", format="NETCDF3_CLASSIC") as data:
-        for name, size in (("y", 3), ("x", 4)):
+    with netCDF4.Dataset(file, "w", format=form) as data:
+        data.mode, data.variables_seen = "tapping", np.array([3, 4], "i2")
+        for name, size in (("y", None if records else 3), ("x", 4), ("n", 5)):
             data.createDimension(name, size)
+        data.createVariable("odd", "i1", ("n",))[:] = 1
         entry = data.createVariable("z", float, ("y", "x"))
         entry[:], entry.units = HEIGHTS, "nm"
-    same(read_topography(file, spacing=SPACING))
-    file.write_bytes(file.read_bytes()[:-cut])
-    refusal("path", file, lambda: read_topography(file, spacing=SPACING))
+        data.createVariable("row", "i2", ("y",))[:] = [1, 2, 3]
+    same(read_topography(file, spacing=SPACING, variable="z"))
+    whole = file.read_bytes()
+    for cut in (8, 40, 100, len(whole) - 30):
+        file.write_bytes(whole[:-cut])
+        refusal("path", file, lambda: read_topography(file, spacing=SPACING, variable="z"))
 
 
 def test_heights_beyond_all_sizes_and_what_is_no_file_are_refused(tmp_path: Path) -> None:

@@ -32,6 +32,11 @@ RIGID = None
 """Elasticity of a rigid body: absent, not stiff."""
 
 
+def _has(part: object, method: str) -> bool:
+    """Return True for an object with a method; a class has none, as brackets have been forgotten."""
+    return hasattr(part, method) and not isinstance(part, type)
+
+
 @dataclass(frozen=True)
 class Body:
     """A surface on an elastic solid.
@@ -46,6 +51,12 @@ class Body:
 
     surface: Surface
     elasticity: Elasticity | None = RIGID
+
+    def __post_init__(self) -> None:
+        if not _has(self.surface, "heights"):
+            raise InputError("surface", self.surface, "a surface, such as a Cylinder or a Topography")
+        if not (self.elasticity is RIGID or _has(self.elasticity, "compliance")):
+            raise InputError("elasticity", self.elasticity, "an elasticity, such as a HalfSpace, or None: rigid")
 
 
 @dataclass(frozen=True, init=False)
@@ -85,9 +96,9 @@ class Scene:
         path: LoadPath,
         pairing: Pairing = ALIGNED,
     ) -> None:
-        if not (lower is RIGID or isinstance(lower, Body) or hasattr(lower, "compliance")):
+        if not (lower is RIGID or isinstance(lower, Body) or _has(lower, "compliance")):
             raise InputError("lower", lower, "a Body or, for a flat one, its elasticity")
-        if not (isinstance(upper, Body) or hasattr(upper, "heights")):
+        if not (isinstance(upper, Body) or _has(upper, "heights")):
             raise InputError("upper", upper, "a Body or, for a rigid one, its surface")
         upper_body = upper if isinstance(upper, Body) else Body(upper)
         lower_body = lower if isinstance(lower, Body) else Body(Flat.facing(upper_body.surface), lower)

@@ -170,7 +170,10 @@ def _solve_by_relations(first: Setup, error: float, quantities: Sequence[str]) -
             break
         try:
             setup = _refine(runs[-1], errors, error)
-        except InputError:  # beyond the largest grid: what was solved is kept, and called too coarse
+        except InputError as refused:
+            if refused.key != "accuracy":
+                raise
+            logger.info("kept as it is, since finer is refused: %s", refused)  # beyond the largest grid
             break
     return outcome
 

@@ -21,9 +21,11 @@ UNITS = {
     **{"m": 1e9, "mm": 1e6, "um": 1e3, "\u03bcm": 1e3, "micrometer": 1e3, "micron": 1e3, "microns": 1e3},
     **{"nm": 1.0, "angstrom": 0.1, "\u00c5": 0.1, "pm": 1e-3, "inch": 2.54e7},
 }
-TEXT = (".csv", ".txt", ".xyz", ".dat", ".asc")
+TEXT = (".csv", ".txt", ".xyz", ".dat")
 COMPRESSED = {".gz": "gzip", ".bz2": "bz2"}
 """Modules that open a compressed text, by its suffix."""
+MATRICES = {"double", "single", *(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64))}
+"""Kinds of full matrices of numbers in .mat files."""
 HDF5 = (".nc", ".h5", ".hdf5")
 NAMED = (".npz", ".mat", *HDF5)
 """Files that hold several arrays by their names."""
@@ -180,7 +182,11 @@ def load_mat(file: Path, variable: str | None) -> NDArray[Any]:
     """Return the matrix in a .mat file, with a row for each y, by its name if there are several; a vector is a line."""
     from scipy.io import loadmat, whosmat  # slow to import
 
-    shapes = {name: shape for name, shape, _ in whosmat(file) if len(shape) == 2}
+    try:
+        shapes = {name: shape for name, shape, kind in whosmat(file) if len(shape) == 2 and kind in MATRICES}
+    except NotImplementedError as error:
+        allowed = "a .mat file of version 7 or less (in MATLAB: save -v7), or heights in .h5"
+        raise InputError("path", str(file), allowed, file) from error
     matrices = [name for name, shape in shapes.items() if min(shape) > 1]
     names = [variable] if variable is not None else matrices or [name for name in shapes if max(shapes[name]) > 1]
     if len(names) != 1 or names[0] not in shapes:

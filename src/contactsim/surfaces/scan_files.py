@@ -11,6 +11,7 @@ from contactsim.surfaces.instrument import read_instrument
 from contactsim.surfaces.io import HDF5, NAMED, SUFFIXES, TEXT, RawHeights
 from contactsim.surfaces.missing import WAYS, fill_missing
 from contactsim.surfaces.netcdf import read_netcdf
+from contactsim.surfaces.text import is_cell_grid
 from contactsim.surfaces.text_layouts import read_text
 from contactsim.surfaces.topography import Topography, dimensions_of, read_spacing
 
@@ -31,11 +32,12 @@ def read_topography(
     ----------
     path : str or Path
         - ``.npy``, ``.npz``, ``.mat``: heights (n,) or (ny, nx).
-        - ``.csv``, ``.txt``, ``.dat``, ``.asc``, also with ``.gz`` or ``.bz2``: one column z, two columns x z, or three
+        - ``.csv``, ``.txt``, ``.dat``, also with ``.gz`` or ``.bz2``: one column z, two columns x z, or three
           columns x y z with x or y constant are a line; otherwise there is a row for each y, from the smallest, and a
           column for each x. Sizes and units are read from lines before the numbers, such as ``# Width: 12.3 µm``. Three
-          columns that are the points x y z of a complete grid, in any order, are an area. A grid of a geographic
-          information system (``cellsize 30``) has the row of the largest y first; `unit` is that of all its lengths.
+          columns that are the points x y z of a complete grid, in any order, are an area.
+        - ``.asc``, ``.txt``: a grid of a geographic information system (first line: ``ncols 100``), the row of the
+          largest y first; `unit` is that of all its lengths.
         - ``.xyz``: the same for a line; over an area the points x y z of a grid.
         - ``.nc``, ``.h5``, ``.hdf5``: a variable with one or two dimensions.
         - others: files of instruments, if the package SurfaceTopography is installed.
@@ -97,9 +99,11 @@ def _read(
 ) -> RawHeights:
     """Return the heights and their spacing by the reader of the suffix."""
     suffix = io.suffix_of(file)
+    if suffix == ".asc" and is_cell_grid(file):  # other files with this ending are of instruments
+        suffix = ".txt"
     if suffix not in SUFFIXES:
         return read_instrument(file, dimensions, unit, variable)
-    with io.report_unreadable(file):
+    with io.report_unreadable(file, *(Exception,) * (suffix == ".mat")):  # scipy's errors are of many kinds
         if suffix in HDF5:
             return read_netcdf(file, dimensions, unit, variable)
         if suffix in TEXT:

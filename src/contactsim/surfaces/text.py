@@ -16,17 +16,19 @@ import numpy as np
 from contactsim.errors import NOTHING, InputError, Words
 from contactsim.grid import Array
 from contactsim.surfaces import io
-from contactsim.surfaces.text_header import Header, named_units
+from contactsim.surfaces.text_header import CELLS, Header, bracketed_units, units_behind_slashes
 
 MAX_HEADER_LINES = 1000
 """Most lines before the numbers."""
 MAX_TEXT, CHUNK = 32 * io.MAX_HEIGHTS, 2**20
 """Most bytes of a text, and how many of a compressed one are counted at a time."""
+MAX_LINE = 1000
+"""Most letters of the first line that are looked at."""
 SHOWN_ROWS = 100
 """Rows that show the separator, the decimal sign and how positions are rounded."""
 DECIMAL_COMMA = re.compile(r"[-+]?\d+(,\d*)?([eE][-+]?\d+)?")
-WHOLE, FRACTION = re.compile(r"[-+]?\d+"), re.compile(r"0\d+")
-"""Numbers without a fraction, and what stands behind a decimal comma but never alone, such as 05."""
+WHOLE, FRACTION = re.compile(r"[-+]?\d+([eE][-+]?\d+)?"), re.compile(r"0\d+([eE][-+]?\d+)?")
+"""Numbers without a fraction, and what stands behind a decimal comma but hardly alone, such as 05."""
 UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 """First bytes of a text in UTF-16."""
 
@@ -68,7 +70,7 @@ class Text:
             raise InputError("heights", Words(f"{count} of numbers"), "two or more rows", file)
         mark, decimal = _style([line.text for line in rows], delimiter)
         if delimiter is None and mark == ",":
-            _check_commas([field for line in rows for field in _fields(line.text, mark)], file)
+            _check_commas((field for line in rows for field in _fields(line.text, mark)), file)
         header = Header(file, [(line.number, line.text) for line in before], _names_of_columns(before, mark), mark)
         return cls(file, header, rows[0].number, len(_numbers(rows[0].text, mark, decimal)), mark, decimal)
 
@@ -139,14 +141,20 @@ def _open_bytes(file: Path) -> IO[bytes]:
     return stream
 
 
+def is_cell_grid(file: Path) -> bool:
+    """Return True for a text that begins as a grid of a geographic information system."""
+    with _open_text(file) as stream:
+        return CELLS.fullmatch(stream.readline(MAX_LINE).strip()) is not None
+
+
 def _open_text(file: Path) -> TextIOWrapper:
     """Open a text file, compressed or not, in UTF-16 or UTF-8.
 
     A byte-order mark is dropped, and bytes that are not UTF-8 are kept.
     """
+    with _open_bytes(file) as stream:
+        start = stream.read(2)
     stream = _open_bytes(file)
-    start = stream.read(2)
-    stream.seek(0)
     if start in UTF_16:
         return TextIOWrapper(stream, encoding="utf-16", errors="replace")
     return TextIOWrapper(stream, encoding="utf-8-sig", errors="surrogateescape")
@@ -185,7 +193,7 @@ def _names_of_columns(before: Sequence[Line], mark: str) -> tuple[int, str]:
     candidates = [line for line in before if not line.is_comment] or before
     if candidates:
         number, text, is_comment = candidates[-1]
-        units = named_units(text)
+        units = bracketed_units(text) or units_behind_slashes(text, mark)
         is_named = not is_comment or (bool(units) and all(unit in io.UNITS for unit in units))
         if is_named and "=" not in text and set(_numbers(text, mark, ".")) == {None}:
             return number, text
@@ -208,11 +216,17 @@ def _style(rows: Sequence[str], delimiter: str | None) -> tuple[str, str]:
     return mark, "," if mark != "," and has_commas and not has_points else "."
 
 
-def _check_commas(fields: Sequence[str], file: Path) -> None:
+def _check_commas(fields: Iterable[str], file: Path) -> None:
     """Raise an InputError for fields that are halves of numbers with a decimal comma, such as 3 and 05."""
-    if all(map(WHOLE.fullmatch, fields)) and any(map(FRACTION.fullmatch, fields)):
-        problem = Words("commas both in the numbers and between them")
-        raise InputError("delimiter", problem, "semicolons, tabs or blanks between numbers with decimal commas", file)
+    has_fraction = False
+    for field in fields:
+        if not WHOLE.fullmatch(field):
+            return
+        has_fraction = has_fraction or bool(FRACTION.fullmatch(field))
+    if has_fraction:
+        problem = Words("commas that may be decimal signs")
+        allowed = 'semicolons, tabs or blanks between such numbers; or `delimiter`, "," where commas separate'
+        raise InputError("delimiter", problem, f'{allowed}, " " where each line is one', file)
 
 
 def _fields(line: str, mark: str) -> list[str]:

@@ -8,6 +8,7 @@ interferometers and profilers write them, in English or German. A line that name
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -22,17 +23,19 @@ COLUMNS, ROWS = ("w", "ncols"), ("h", "nrows")
 """Names of the number of points along x and along y."""
 SPACING = ("pixel size",)
 """Names of the distance between points."""
-CELL, MISSING = ("cellsize",), ("nodata_value",)
-"""Names of the distance between points and of the height of points that are missing, in grids of geographic systems."""
+CELL, CELL_ALONG_X, CELL_ALONG_Y = ("cellsize",), ("dx",), ("dy",)
+"""Names of the distance between points in grids of geographic systems."""
+MISSING, USUALLY_MISSING = ("nodata_value", "nodata"), -9999.0
+"""Names of the height of points that are missing there, and that height where none is stated."""
 UNIT = ("value units", "data unit")
 """Names of the unit of heights."""
 FACTOR = re.compile(r"height conversion factor \(-> (?P<unit>\S+)\)")
 """Name of what a height is multiplied by."""
 STATEMENT = re.compile(r"(?P<name>[^:=]+?)\s*[:=]\s*(?P<value>.+)")
-CELLS = re.compile(r"(?P<name>ncols|nrows|cellsize|nodata_value)\s+(?P<value>\S+)", re.IGNORECASE)
+CELLS = re.compile(r"(?P<name>ncols|nrows|cellsize|dx|dy|nodata_value|nodata)\s+(?P<value>\S+)", re.IGNORECASE)
 PAIRS = re.compile(r"(\w+)\s*=\s*(\S+)")
 LENGTH = re.compile(r"(?P<number>[-+]?[\d.,]+(?:[eE][-+]?\d+)?)\s*(?P<unit>[^\W\d]\S*)")
-IN_BRACKETS, BEHIND_SLASH = re.compile(r"[\[(]([^\])]*)[\])]"), re.compile(r"\w\s*/\s*([^\W\d][^\s,;]*)")
+IN_BRACKETS, BEHIND_SLASH = re.compile(r"[\[(]([^\])]*)[\])]"), re.compile(r"\w+\s*/\s*(\w+)")
 
 
 @dataclass(frozen=True)
@@ -75,12 +78,8 @@ class Header:
                 yield line, statement["name"], statement["value"]
 
     def _statement(self, names: Sequence[str]) -> tuple[int, str] | None:
-        """Return the line and value of a statement by one of its names, or None; InputError where two differ."""
-        (first, value), *others = [entry for name in names for entry in self._statements.get(name, [])] or [(0, "")]
-        for line, text in others:
-            if text != value:
-                raise InputError(f"line {line}", text, f"{value}, as line {first} says", self.file)
-        return (first, value) if first else None
+        """Return the line and value of the last statement by one of its names, or None."""
+        return next((self._statements[name][-1] for name in names if name in self._statements), None)
 
     def _length(self, names: Sequence[str]) -> float | None:
         """Return a length that is stated with its unit, nm, or None."""
@@ -106,13 +105,13 @@ class Header:
     @property
     def has_cells(self) -> bool:
         """Whether the heights are a grid of a geographic information system, whose first row has the largest y."""
-        return self._statement(CELL) is not None
+        return "ncols" in self._statements and "nrows" in self._statements
 
     @property
-    def missing(self) -> float | None:
-        """Height that stands for points that are missing, or None."""
+    def missing(self) -> float:
+        """Height that stands for points that are missing in such a grid."""
         stated = self._statement(MISSING)
-        return None if stated is None else self._number(*stated)
+        return USUALLY_MISSING if stated is None else self._number(*stated)
 
     def steps(self, shape: tuple[int, ...], unit: str | None) -> tuple[float | None, ...]:
         """Return the stated spacing along y and x of heights of a shape (ny, nx), nm; None where none is stated."""
@@ -123,19 +122,27 @@ class Header:
                     "heights", Words(f"{points} {key}"), f"{stated[1]}, as line {stated[0]} says", self.file
                 )
         lengths = self._length(HEIGHT), self._length(WIDTH)
-        spacing, cell = self._length(SPACING), self._statement(CELL)
-        if cell is not None:
-            spacing = io.positive_spacing(
-                self._number(*cell) * io.unit_factor(CELL[0], None, unit, self.file), self.file
-            )
+        if self.has_cells:
+            return tuple(self._cell_size(names, unit) for names in (CELL + CELL_ALONG_Y, CELL + CELL_ALONG_X))
+        spacing = self._length(SPACING)
         return tuple(
             spacing if length is None else length / points for length, points in zip(lengths, shape, strict=True)
         )
 
+    def _cell_size(self, names: Sequence[str], unit: str | None) -> float | None:
+        """Return the distance between points of a grid of a geographic system, nm; None where none is stated."""
+        stated = self._statement(names)
+        if stated is None:
+            return None
+        number = self._number(*stated)
+        if not number > 0:
+            raise InputError(f"line {stated[0]}", stated[1], "a positive length", self.file)
+        return number * io.unit_factor(names[0], None, unit, self.file)
+
     def column_units(self, columns: int) -> list[str]:
         """Return the units of all columns where they are named, like `x [um]` or `Lateral um`; InputError for some."""
         line, text = self.named
-        units = named_units(text) or self._last_words(columns)
+        units = bracketed_units(text) or units_behind_slashes(text, self.mark) or self._last_words(columns)
         if len(units) not in (0, columns):
             raise InputError(f"line {line}", text, f"a unit for each of {columns} columns, or none", self.file)
         return units
@@ -149,6 +156,13 @@ class Header:
             return []
         return [words[-1].lower() for words in fields if len(words) > 1 and words[-1].lower() in io.UNITS]
 
+    def _check_units(self) -> None:
+        """Raise an InputError for two units of heights that differ."""
+        stated = [entry for name in UNIT for entry in self._statements.get(name, []) if entry[1] in io.UNITS]
+        for line, unit in stated[1:]:
+            if io.UNITS[unit] != io.UNITS[stated[0][1]]:
+                raise InputError(f"line {line}", unit, f"{stated[0][1]}, as line {stated[0][0]} says", self.file)
+
     def height_factor(self, stated: str | None, unit: str | None) -> float:
         """Return the nanometres in a height: by a stated factor, a stated unit, or else by `unit`."""
         for name in self._statements:
@@ -158,10 +172,18 @@ class Header:
                     "heights", factor["unit"], unit, self.file
                 )
         named = self._statement(UNIT)
+        self._check_units()
         return io.unit_factor("heights", stated or (named[1] if named else None), unit, self.file)
 
 
-def named_units(text: str) -> list[str]:
-    """Return what stands in brackets in the names of columns, like `x [um]`, or the units like that of `x/um`."""
-    behind: list[str] = BEHIND_SLASH.findall(text)
-    return IN_BRACKETS.findall(text) or (behind if all(unit in io.UNITS for unit in behind) else [])
+def bracketed_units(text: str) -> list[str]:
+    """Return what stands in brackets in the names of columns, like `x [um]`."""
+    return IN_BRACKETS.findall(text)
+
+
+def units_behind_slashes(text: str, mark: str) -> list[str]:
+    """Return the units of two or more names like `x/um`; none where a field is anything else."""
+    fields = text.split(None if mark == " " else mark)
+    found = [BEHIND_SLASH.fullmatch(unicodedata.normalize("NFKC", field).strip()) for field in fields]
+    units = [match[1] for match in found if match is not None]
+    return units if len(units) == len(fields) > 1 and all(unit in io.UNITS for unit in units) else []

@@ -29,8 +29,12 @@ def read_text(
     text = Text.read(file, delimiter)
     area = POINTS if io.suffix_of(file) == ".xyz" else GRID
     layout = LINE if dimensions == 1 or (dimensions is None and text.width < 3) else area
+    if text.header.has_cells:
+        if dimensions == 1:
+            raise InputError("dimensions", dimensions, "2: the file is a grid", file)
+        layout = CELLS
     table = text.table(layout.widths, layout.allowed)
-    if dimensions is None and _is_line_scan(table):
+    if dimensions is None and layout is not CELLS and _is_line_scan(table):
         layout = LINE
     elif layout is GRID and _are_points(text, table):
         layout = POINTS
@@ -82,10 +86,15 @@ def _convert_line(text: Text, table: Array, unit: str | None, with_gaps: bool) -
 def _convert_grid(text: Text, table: Array, unit: str | None, with_gaps: bool) -> RawHeights:
     """Return a row of heights for each y."""
     scale = text.header.height_factor(next(iter(text.header.column_units(1)), None), unit)
-    if text.header.missing is not None:
-        table = np.where(table == text.header.missing, np.nan, table)
-    heights = io.real_numbers(table, "heights", text.file, scale, 2)
-    return heights[::-1] if text.header.has_cells else heights, text.header.steps(table.shape, unit)
+    return io.real_numbers(table, "heights", text.file, scale, 2), text.header.steps(table.shape, unit)
+
+
+def _convert_cells(text: Text, table: Array, unit: str | None, with_gaps: bool) -> RawHeights:
+    """Return the heights of a grid of a geographic information system, from its last row, the smallest y, on."""
+    steps = text.header.steps(table.shape, unit)
+    is_missing = table.astype(np.float32) == np.float32(text.header.missing)  # it may be rounded there
+    scale = io.unit_factor("heights", None, unit, text.file)
+    return io.real_numbers(np.where(is_missing, np.nan, table)[::-1], "heights", text.file, scale, 2), steps
 
 
 def _fill_a_grid(row_places: Array, column_places: Array) -> bool:
@@ -157,4 +166,5 @@ class Layout(NamedTuple):
 
 LINE = Layout(range(1, 4), "one to three in each row", _convert_line)
 GRID = Layout(range(2, sys.maxsize), "two or more heights in each row", _convert_grid)
+CELLS = Layout(GRID.widths, GRID.allowed, _convert_cells)
 POINTS = Layout(range(3, 4), "three in each row: x, y and z", _convert_points)
