@@ -62,7 +62,18 @@ def test_without_contact_there_is_none_and_full_contact_does_not_give_way():
     layer = press(wave(64), 1.0, thickness=10.0, poisson_ratio=0.3)
     assert layer.contact.all()
     uniform = layer.scene.compliance(np.zeros(1))[0]
-    assert cs.contact_stiffness(layer) == pytest.approx(1 / uniform, rel=1e-6)
+    assert cs.contact_stiffness(layer) == pytest.approx(1 / uniform, rel=1e-12)
+    for thickness in (10.0, 1e6):
+        assert cs.contact_stiffness(press(wave(64), 1e3, thickness=thickness, poisson_ratio=0.5)) == np.inf
+
+
+@pytest.mark.parametrize("shape", [(16, 16), (24, 40), (32, 32), (48, 48), (64,)])
+def test_full_contact_of_heights_that_are_alone_is_a_flat_punch(shape):
+    heights, pressure = np.random.default_rng(0).normal(size=shape), 300.0
+    stiffness = cs.contact_stiffness(press(heights, pressure, periodic=False))
+    below, above = (press(heights, pressure * (1 + sign * 1e-4), periodic=False) for sign in (-1, 1))
+    assert below.contact.all()
+    assert stiffness == pytest.approx(2e-4 * pressure / (above.approach - below.approach), rel=1e-5)
 
 
 @pytest.mark.parametrize("thickness", [1e4, 1e6, 1e9])

@@ -40,7 +40,8 @@ def contact_stiffness(result: Result, *, tolerance: float = 1e-7, threads: int =
     -------
     float
         Stiffness for each length of a line or area of a surface, in the unit of pressure over that of length: infinite
-        in full contact of a periodic half-space, 0 without contact, NaN if the punch does not converge.
+        in full contact of a periodic half-space or a layer with ν = 0.5, whose mean displacement is zero, 0 without
+        contact, NaN if the punch does not converge.
 
     Raises
     ------
@@ -50,38 +51,44 @@ def contact_stiffness(result: Result, *, tolerance: float = 1e-7, threads: int =
     scene, contact = pressed_scene(result), result.contact
     if not contact.any():
         return 0.0
-    if contact.all() and Trait.HALF_SPACE in scene.traits:
-        return np.inf
+    if contact.all() and Trait.FREE not in scene.traits:  # all points move alike
+        whole = float(scene.compliance(np.zeros(1))[0])
+        return 1 / whole if whole else np.inf
+    spacing = tuple(length / size for length, size in zip(scene.lengths, contact.shape, strict=True))
+    if contact.all() and contact.ndim == 2:  # on flat heights alone nothing tells how deep a punch is
+        contact = np.pad(contact, (0, 2))
     step, is_thick = load_step(1.0, None, "load"), False
     if Trait.LAYER in scene.traits:
         whole, wave = scene.compliance(np.array([0.0, 2 * np.pi / max(scene.lengths)]))
         is_thick = whole > THICK * wave
         step = load_step(None, 1 / whole, "load") if is_thick else step
-    pressed = _press_punch(scene, contact, step, tolerance, threads)
+    pressed = _press_punch(scene, contact, spacing, step, tolerance, threads)
     while is_thick and pressed.status.solved and (pressed.contact & ~contact).any():  # the surface beside it touches
         step = load_step(None, step.value / pressed.approach, "load")
-        pressed = _press_punch(scene, contact, step, tolerance, threads)
-    return pressed.mean_pressure / pressed.approach if pressed.status.solved else np.nan
+        pressed = _press_punch(scene, contact, spacing, step, tolerance, threads)
+    load = pressed.mean_pressure * contact.size / result.contact.size
+    return load / pressed.approach if pressed.status.solved else np.nan
 
 
-def _press_punch(scene: Scene, contact: Array, step: LoadStep, tolerance: float, threads: int) -> Result:
+def _press_punch(
+    scene: Scene, contact: Array, spacing: tuple[float, ...], step: LoadStep, tolerance: float, threads: int
+) -> Result:
     """Return the result of pressing a flat punch that has the shape of a contact.
 
     It approaches by one unit of length. A thick layer gives far more as a whole than to any wave: there the approach
     follows from a load, by which it is one or more.
     """
-    punch = _punch(scene, contact, step)
+    punch = _punch(scene, contact, spacing, step)
     heights = punch.upper.surface.heights(contact.shape[-1])
     problem, scale = pose_hard_wall(punch, step, heights, 1.0, threads)
     problem.tolerance = tolerance / scale.step
     return solve(default_solver(punch), problem, scale)
 
 
-def _punch(scene: Scene, contact: Array, step: LoadStep) -> Scene:
+def _punch(scene: Scene, contact: Array, spacing: tuple[float, ...], step: LoadStep) -> Scene:
     """Return the scene of a flat punch that has the shape of a contact."""
     share = contact.mean()
     depth = DEPTH * (1 + share / max(1 - share, 0.5 / contact.size))
-    spacing = tuple(length / size for length, size in zip(scene.lengths, contact.shape, strict=True))
     surface = Topography(np.where(contact, 0.0, -depth), spacing)
     lower = Body(Flat.facing(surface), scene.lower.elasticity)
     path = LoadPath((step,))
