@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import re
 import sys
 from collections.abc import Sequence
@@ -63,6 +64,8 @@ def _make_folder(file: Path, option: str) -> None:
         file.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(option, str(file), f"a file in a folder that can be made ({error.strerror})") from error
+    if not os.access(file.parent, os.W_OK):
+        raise InputError(option, str(file), "a file in a folder that can be written to")
 
 
 def _in_options(error: InputError, options: argparse.Namespace) -> InputError:

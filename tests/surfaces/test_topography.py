@@ -216,6 +216,14 @@ def test_a_row_that_does_not_parse_is_refused_with_its_line(tmp_path: Path, row:
     assert refusal(f"line 6{column}", file, lambda: read_topography(file)).value == value
 
 
+@pytest.mark.parametrize("mark", [";", "\t", " "])
+@pytest.mark.parametrize("field", ["1.9", "1.2.3", "1.O5", "n/a", "--1", "1_5"])
+def test_a_mistyped_field_among_decimal_commas_is_told_with_its_place(tmp_path: Path, mark: str, field: str) -> None:
+    rows = [["0,0", "1,5"], ["0,1", "1,7"], ["0,2", "1,6"], ["0,3", field], ["0,4", "1,5"]]
+    file = write(tmp_path, "|".join(map(mark.join, rows)), ".txt")
+    assert refusal("line 4, column 2", file, lambda: read_topography(file, unit="um")).value == field
+
+
 def test_what_is_wrong_in_a_wide_row_is_told(tmp_path: Path) -> None:
     wide = ";".join(["1.25"] * 40)
     file = write(tmp_path, f"{wide}|{wide[:-5]}")
@@ -268,6 +276,10 @@ def test_a_negative_width_is_refused_with_its_line(tmp_path: Path) -> None:
     [
         ("ncols 2\nnrows 2\ncellsize 30\n1 2\n3 -9999\n", [[3, np.nan], [1, 2]]),
         ("ncols 3\nnrows 2\ndx 30\ndy 30\nnodata -1\n1 1 1\n1 0 -1\n", [[1, 0, np.nan], [1, 1, 1]]),
+        (
+            "ncols 2\nnrows 2\ncellsize 30\nnodata_value -3.4028234663852886e+38\n1 2\n3 -3.40282e+38\n",
+            [[3, np.nan], [1, 2]],
+        ),
         (
             "NCOLS 2\nNROWS 2\nCELLSIZE 30\nNODATA_VALUE -3.4028234663852886e+38\n1 2\n3 -3.40282346639e+38\n",
             [[3, np.nan], [1, 2]],

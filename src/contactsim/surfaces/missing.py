@@ -83,3 +83,5 @@ WAYS: Mapping[str, Callable[[Array, NDArray[np.bool_]], Array]] = {
     "lowest": _lowest,
 }
 """Ways to fill heights that are missing."""
+REMEDY = f"; or `fill` as one of {', '.join(WAYS)}"
+"""What may be done about missing points, in a message."""

@@ -9,7 +9,7 @@ from contactsim.errors import InputError
 from contactsim.surfaces import io
 from contactsim.surfaces.instrument import read_instrument
 from contactsim.surfaces.io import HDF5, NAMED, SUFFIXES, TEXT, RawHeights
-from contactsim.surfaces.missing import WAYS, fill_missing
+from contactsim.surfaces.missing import REMEDY, fill_missing
 from contactsim.surfaces.netcdf import read_netcdf
 from contactsim.surfaces.text import is_cell_grid
 from contactsim.surfaces.text_layouts import read_text
@@ -77,7 +77,7 @@ def read_topography(
     heights, steps = _read(file, dimensions, unit, variable, delimiter, fill is not None)
     filled = 0.0
     if fill is None:
-        io.check_finite(heights, "heights", file, f"; or `fill` as one of {', '.join(WAYS)}")
+        io.check_finite(heights, "heights", file, REMEDY)
     else:
         heights, filled = fill_missing(heights, fill, file)
     requested = (None,) * heights.ndim if spacing is None else read_spacing(spacing, heights.ndim, file)

@@ -27,6 +27,8 @@ MAX_LINE = 1000
 SHOWN_ROWS = 100
 """Rows that show the separator, the decimal sign and how positions are rounded."""
 DECIMAL_COMMA = re.compile(r"[-+]?\d+(,\d*)?([eE][-+]?\d+)?")
+WITH_FRACTION = re.compile(r"[-+]?\d+,\d+([eE][-+]?\d+)?")
+"""Numbers that may have a decimal comma, and those that surely have one if they stand between blanks."""
 WHOLE, FRACTION = re.compile(r"[-+]?\d+([eE][-+]?\d+)?"), re.compile(r"0\d+([eE][-+]?\d+)?")
 """Numbers without a fraction, and what stands behind a decimal comma but hardly alone, such as 05."""
 UTF_16 = (b"\xff\xfe", b"\xfe\xff")
@@ -106,7 +108,7 @@ class Text:
         with _open_text(self.file) as stream:
             text: Iterable[str] = stream
             if self.decimal != ".":
-                text = (line.replace(self.decimal, ".") for line in text)
+                text = (_with_points(line) for line in text)
             try:
                 return np.loadtxt(text, delimiter=mark, comments=None, skiprows=self.first - 1, ndmin=2)
             except ValueError:
@@ -203,17 +205,25 @@ def _names_of_columns(before: Sequence[Line], mark: str) -> tuple[int, str]:
 def _style(rows: Sequence[str], delimiter: str | None) -> tuple[str, str]:
     """Return the separator and the decimal sign that rows show.
 
-    A semicolon separates, else a comma, else blanks. A comma is a decimal sign where something else separates, and in
-    numbers like 1,5 that blanks separate.
+    A semicolon separates, else a comma, else blanks. A comma is a decimal sign where something else separates and more
+    fields have commas than points, and in numbers like 1,5 that blanks separate; some rows may be mistyped.
     """
-    has_commas, has_points = (any(sign in row for row in rows) for sign in ",.")
     mark = delimiter
     if mark is None:
         fields = [field for row in rows for field in row.split()]
-        are_decimal = len(fields) > len(rows) and all(map(DECIMAL_COMMA.fullmatch, fields))
+        most = 2 * sum(len([*filter(WITH_FRACTION.fullmatch, row.split())]) > 1 for row in rows) > len(rows)
+        are_decimal = len(fields) > len(rows) and (most or all(map(DECIMAL_COMMA.fullmatch, fields)))
         last = rows[1] if len(rows) > 1 else rows[0]
         mark = ";" if ";" in last else " " if are_decimal or "," not in last else ","
-    return mark, "," if mark != "," and has_commas and not has_points else "."
+    commas, points = (sum(sign in field for row in rows for field in _fields(row, mark)) for sign in ",.")
+    return mark, "," if mark != "," and commas > points else "."
+
+
+def _with_points(line: str) -> str:
+    """Return a line of numbers with decimal commas with decimal points; ValueError where it has some already."""
+    if "." in line:
+        raise ValueError("a decimal point among decimal commas")
+    return line.replace(",", ".")
 
 
 def _check_commas(fields: Iterable[str], file: Path) -> None:
@@ -242,7 +252,8 @@ def _numbers(line: str, mark: str, decimal: str) -> list[float | None]:
     values: list[float | None] = []
     for field in _fields(line, mark):
         try:
-            values.append(None if "_" in field else float(field.replace(decimal, ".")))
+            is_mistyped = "_" in field or (decimal != "." and "." in field)
+            values.append(None if is_mistyped else float(field.replace(decimal, ".")))
         except ValueError:
             values.append(None)
     return values

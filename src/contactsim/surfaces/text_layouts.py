@@ -15,8 +15,11 @@ from contactsim.errors import InputError, Words
 from contactsim.grid import Array
 from contactsim.surfaces import io
 from contactsim.surfaces.io import TOLERANCE, RawHeights
-from contactsim.surfaces.missing import MAX_SHARE
+from contactsim.surfaces.missing import MAX_SHARE, REMEDY
 from contactsim.surfaces.text import Text
+
+MISSING_ROUNDING = 1e-5
+"""Relative rounding of the height that stands for a missing point, in a grid of a geographic system."""
 
 
 def read_text(
@@ -92,9 +95,12 @@ def _convert_grid(text: Text, table: Array, unit: str | None, with_gaps: bool) -
 def _convert_cells(text: Text, table: Array, unit: str | None, with_gaps: bool) -> RawHeights:
     """Return the heights of a grid of a geographic information system, from its last row, the smallest y, on."""
     steps = text.header.steps(table.shape, unit)
-    is_missing = table.astype(np.float32) == np.float32(text.header.missing)  # it may be rounded there
+    is_missing = np.isclose(table, text.header.missing, rtol=MISSING_ROUNDING, atol=0)
     scale = io.unit_factor("heights", None, unit, text.file)
-    return io.real_numbers(np.where(is_missing, np.nan, table)[::-1], "heights", text.file, scale, 2), steps
+    heights = io.real_numbers(np.where(is_missing, np.nan, table), "heights", text.file, scale, 2)
+    if not with_gaps:
+        io.check_finite(heights, "heights", text.file, REMEDY)  # by the rows of the file
+    return heights[::-1], steps
 
 
 def _fill_a_grid(row_places: Array, column_places: Array) -> bool:
