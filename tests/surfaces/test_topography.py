@@ -377,7 +377,7 @@ def test_a_compressed_text_is_read_as_it_is(tmp_path: Path, text: str, suffix: s
 
 
 def test_a_compressed_text_that_grows_too_long_is_refused(tmp_path: Path, monkeypatch) -> None:
-    monkeypatch.setattr("contactsim.surfaces.text.MAX_TEXT", 10**6)
+    monkeypatch.setattr("contactsim.surfaces.text_lines.MAX_TEXT", 10**6)
     file = tmp_path / "t.txt.gz"
     file.write_bytes(gzip.compress(b"1 2\n" * 10**6))
     assert "a text of at most" in refusal("path", file, lambda: read_topography(file, unit="nm", spacing=1)).allowed

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from importlib import import_module
-from io import TextIOWrapper
 from pathlib import Path
-from typing import IO, NamedTuple
 
 import numpy as np
 
@@ -17,11 +14,10 @@ from contactsim.errors import NOTHING, InputError, Words
 from contactsim.grid import Array
 from contactsim.surfaces import io
 from contactsim.surfaces.text_header import CELLS, Header, bracketed_units, units_behind_slashes
+from contactsim.surfaces.text_lines import Line, check_size, open_text, read_lines
 
 MAX_HEADER_LINES = 1000
 """Most lines before the numbers."""
-MAX_TEXT, CHUNK = 32 * io.MAX_HEIGHTS, 2**20
-"""Most bytes of a text, and how many of a compressed one are counted at a time."""
 MAX_LINE = 1000
 """Most letters of the first line that are looked at."""
 SHOWN_ROWS = 100
@@ -31,8 +27,6 @@ WITH_FRACTION = re.compile(r"[-+]?\d+,\d+([eE][-+]?\d+)?")
 """Numbers that may have a decimal comma, and those that surely have one if they stand between blanks."""
 WHOLE, FRACTION = re.compile(r"[-+]?\d+([eE][-+]?\d+)?"), re.compile(r"0\d+([eE][-+]?\d+)?")
 """Numbers without a fraction, and what stands behind a decimal comma but hardly alone, such as 05."""
-UTF_16 = (b"\xff\xfe", b"\xfe\xff")
-"""First bytes of a text in UTF-16."""
 
 
 @dataclass(frozen=True)
@@ -55,10 +49,10 @@ class Text:
         """Return the text of a file; without a delimiter its first rows show the separator."""
         if delimiter not in (None, ",", ";", "\t", " "):
             raise InputError("delimiter", delimiter, 'one of "," ";" tab " "', file)
-        _check_size(file)
+        check_size(file)
         before: list[Line] = []
         rows: list[Line] = []
-        for line in _lines(file):
+        for line in read_lines(file):
             if not rows and (line.is_comment or _is_words(line.text, delimiter)):
                 before.append(line)
                 if len(before) > MAX_HEADER_LINES:
@@ -82,7 +76,7 @@ class Text:
         if table is not None and table.shape[1] in widths:
             return table
         rows: list[Array] = []
-        for line in _lines(self.file):
+        for line in read_lines(self.file):
             if line.number < self.first or line.is_comment:
                 continue
             rows.append(np.array(self._row(line), dtype=np.float64))
@@ -105,7 +99,7 @@ class Text:
     def _load_at_once(self) -> Array | None:
         """Return all numbers, much faster than line by line; None if a line is anything else, such as a comment."""
         mark = None if self.mark == " " else self.mark
-        with _open_text(self.file) as stream:
+        with open_text(self.file) as stream:
             text: Iterable[str] = stream
             if self.decimal != ".":
                 text = (_with_points(line) for line in text)
@@ -117,7 +111,7 @@ class Text:
     def roundings(self, columns: int) -> list[float]:
         """Return half of the last digit that is written of each column, in its unit, by the first rows."""
         digits = [0] * columns
-        rows = (line for line in _lines(self.file) if line.number >= self.first and not line.is_comment)
+        rows = (line for line in read_lines(self.file) if line.number >= self.first and not line.is_comment)
         for line in itertools.islice(rows, SHOWN_ROWS):
             for column, field in enumerate(_fields(line.text, self.mark)[:columns]):
                 mantissa, _, exponent = field.lower().partition("e")
@@ -128,59 +122,10 @@ class Text:
         return [0.5 * 10.0**-count for count in digits]
 
 
-class Line(NamedTuple):
-    """A line that is not blank: its number, its text without the sign of a comment, and whether it is one."""
-
-    number: int
-    text: str
-    is_comment: bool
-
-
-def _open_bytes(file: Path) -> IO[bytes]:
-    """Open the bytes of a text file, compressed or not."""
-    module = io.COMPRESSED.get(file.suffix.lower())
-    stream: IO[bytes] = file.open("rb") if module is None else import_module(module).open(file)
-    return stream
-
-
 def is_cell_grid(file: Path) -> bool:
     """Return True for a text that begins as a grid of a geographic information system."""
-    with _open_text(file) as stream:
+    with open_text(file) as stream:
         return CELLS.fullmatch(stream.readline(MAX_LINE).strip()) is not None
-
-
-def _open_text(file: Path) -> TextIOWrapper:
-    """Open a text file, compressed or not, in UTF-16 or UTF-8.
-
-    A byte-order mark is dropped, and bytes that are not UTF-8 are kept.
-    """
-    with _open_bytes(file) as stream:
-        start = stream.read(2)
-    stream = _open_bytes(file)
-    if start in UTF_16:
-        return TextIOWrapper(stream, encoding="utf-16", errors="replace")
-    return TextIOWrapper(stream, encoding="utf-8-sig", errors="surrogateescape")
-
-
-def _check_size(file: Path) -> None:
-    """Raise an InputError for a text that is too long, before memory is taken for its numbers."""
-    size = file.stat().st_size
-    if file.suffix.lower() in io.COMPRESSED:
-        with _open_bytes(file) as stream:
-            size = 0
-            while size <= MAX_TEXT and (chunk := stream.read(CHUNK)):
-                size += len(chunk)
-    if size > MAX_TEXT:
-        raise InputError("path", str(file), f"a text of at most {MAX_TEXT / 2**30:g} GiB", file)
-
-
-def _lines(file: Path) -> Iterator[Line]:
-    """Yield the lines that are not blank."""
-    with _open_text(file) as stream:
-        for number, text in enumerate(stream, 1):
-            line = text.replace("\udcb5", "\u03bc").strip()  # latin-1 micro sign
-            if line:
-                yield Line(number, line.lstrip("#").strip(), line.startswith("#"))
 
 
 def _is_words(line: str, delimiter: str | None) -> bool:
