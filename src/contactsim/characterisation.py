@@ -110,11 +110,7 @@ def characterise(
     for name, surface in {"topography": topography, "other": other}.items():
         if not isinstance(surface, Topography) and not (name == "other" and surface is None):
             raise InputError(name, surface, "a Topography")
-    loads = np.atleast_1d(np.asarray(mean_pressures, object))
-    if loads.ndim != 1 or not loads.size or not all(is_number(value) and value > 0 for value in loads):
-        raise InputError("mean_pressures", mean_pressures, "positive numbers, in GPa")
-    if len({*loads.tolist()}) < loads.size:
-        raise InputError("mean_pressures", mean_pressures, "each number once")
+    loads = _read_loads(mean_pressures)
     check_tolerance(tolerance)
     if conductivities is not None:
         conductance(0.0, contact_modulus, conductivities)  # refused before the contact is solved
@@ -125,17 +121,17 @@ def characterise(
             raise InputError("offset", offset, f"one that leaves {MIN_POINTS} points or more each way")
         value = Words(f"shape {topography.values.shape}")
         raise InputError("topography", value, f"a Topography of {MIN_POINTS} points or more each way")
-    wall, values = HardWall(hardness), loads.astype(float).tolist()
+    wall = HardWall(hardness)
 
     def numbers_of(surface: Topography) -> xr.Dataset:
         """Return the numbers of a surface at each load."""
         lower = Body(Flat.facing(surface), elasticity)
-        scene = Scene(lower, surface, wall, pressures(values))
+        scene = Scene(lower, surface, wall, pressures(loads))
         data = simulate(scene, tolerance=tolerance, solver=solver, threads=threads, keep=("patches", "stiffness"))
         if conductivities is not None:
             through = conductance(data.contact_stiffness.values, contact_modulus, conductivities)
             data = data.assign(contact_conductance=("step", np.atleast_1d(through)))
-        return _select_numbers(data, surface, scene.repeats, values)
+        return _select_numbers(data, surface, scene.repeats, loads)
 
     even = topography.even_part()
     fine = numbers_of(topography)
@@ -147,6 +143,16 @@ def characterise(
         base = numbers_of(even)
     names = [name for name in (*NUMBERS, *OF_HEIGHTS, "nayak_parameter") if name in fine and name not in WITHOUT_ERROR]
     return describe(fine.assign({f"{name}_grid_error": abs(base[name] - coarse[name]) for name in names}))
+
+
+def _read_loads(mean_pressures: Sequence[float]) -> list[float]:
+    """Return mean pressures as floats; InputError unless they are positive, each once."""
+    loads = np.atleast_1d(np.asarray(mean_pressures, object))
+    if loads.ndim != 1 or not loads.size or not all(is_number(value) and value > 0 for value in loads):
+        raise InputError("mean_pressures", mean_pressures, "positive numbers, in GPa")
+    if len({*loads.tolist()}) < loads.size:
+        raise InputError("mean_pressures", mean_pressures, "each number once")
+    return [float(value) for value in loads]
 
 
 def _select_numbers(data: xr.Dataset, surface: Topography, repeats: bool, loads: list[float]) -> xr.Dataset:

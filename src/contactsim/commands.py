@@ -21,6 +21,7 @@ from contactsim.error_control.options import choose_options
 from contactsim.errors import InputError
 from contactsim.evaluation import estimate
 from contactsim.explanation import explain_setup
+from contactsim.files import prepare_target
 from contactsim.observables.dataset_forms import form_of
 from contactsim.paths.driver import follow_path
 from contactsim.paths.options import Accuracy
@@ -75,8 +76,7 @@ def run_scene(options: argparse.Namespace) -> None:
         many = f"a study of one run; this has {len(study.runs())}: snakemake --cores 2 {options.scene}"
         raise InputError("scene", options.scene, many)
     target = options.output or f"{Path(options.scene).with_suffix('')}.nc"
-    if Path(target).is_dir():
-        raise InputError("--output", target, "the name of a file; this is a folder")
+    prepare_target(target, "--output")
     data, settings = _simulate_study(study, options.threads)
     warn_of_excess(data)
     data = _label_as_study(data, settings)

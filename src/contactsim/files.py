@@ -6,6 +6,8 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
+from contactsim.errors import InputError
+
 
 def write_atomically(path: str | Path, save: Callable[[Path], object]) -> None:
     """Save under a temporary name in the same folder, which is made if need be, and move it into place.
@@ -21,6 +23,19 @@ def write_atomically(path: str | Path, save: Callable[[Path], object]) -> None:
         os.replace(temporary, path)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def prepare_target(path: str | Path, option: str) -> None:
+    """Make the folder of a file to be written, before anything is solved; InputError where that is impossible."""
+    path = Path(path)
+    if path.is_dir():
+        raise InputError(option, str(path), "the name of a file; this is a folder")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(option, str(path), f"a file in a folder that can be made ({error.strerror})") from error
+    if not os.access(path.parent, os.W_OK):
+        raise InputError(option, str(path), "a file in a folder that can be written to")
 
 
 def write_text(text: str, path: str | Path) -> None:

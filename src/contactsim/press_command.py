@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import re
 import sys
 from collections.abc import Sequence
@@ -20,6 +19,7 @@ from contactsim.code_digest.modules import source_digest
 from contactsim.commands import DRAWN
 from contactsim.errors import InputError
 from contactsim.evaluation.estimate import align_right
+from contactsim.files import prepare_target
 from contactsim.status import Status, describe_excess, is_solved
 from contactsim.surfaces.preparation import USUAL_DETREND, prepare_topography
 from contactsim.surfaces.scan_files import read_topography
@@ -56,18 +56,6 @@ def press_file(options: argparse.Namespace) -> None:
         raise _in_options(error, options) from error
 
 
-def _make_folder(file: Path, option: str) -> None:
-    """Make the folder of a file to be written, before anything is solved; InputError where that is impossible."""
-    if file.is_dir():
-        raise InputError(option, str(file), "the name of a file; this is a folder")
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(option, str(file), f"a file in a folder that can be made ({error.strerror})") from error
-    if not os.access(file.parent, os.W_OK):
-        raise InputError(option, str(file), "a file in a folder that can be written to")
-
-
 def _in_options(error: InputError, options: argparse.Namespace) -> InputError:
     """Return an error with the names that arguments of functions have as options."""
     names = {"mean_pressures": "mean_pressure"} | {name: name for name in vars(options)}
@@ -84,7 +72,7 @@ def _press_file(options: argparse.Namespace) -> None:
     other = None if options.other is None else _mirror(_read_other(options))
     for option in ("figure", "output"):
         if getattr(options, option):
-            _make_folder(Path(getattr(options, option)), f"--{option}")
+            prepare_target(getattr(options, option), f"--{option}")
     try:
         data = characterise(
             heights,

@@ -132,7 +132,7 @@ def _read_heights(
 
 
 def check_tolerance(tolerance: float) -> None:
-    """Raise an InputError for a tolerance that is not positive or too large."""
+    """Raise an InputError for a tolerance that is not positive or too large; accuracy studies may use larger ones."""
     if not (is_positive(tolerance) and tolerance <= MAX_TOLERANCE):
         raise InputError("tolerance", tolerance, f"a positive number, at most {MAX_TOLERANCE:g} grid steps")
 

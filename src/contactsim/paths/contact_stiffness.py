@@ -57,27 +57,31 @@ def contact_stiffness(result: Result, *, tolerance: float = 1e-7, threads: int =
     spacing = tuple(length / size for length, size in zip(scene.lengths, contact.shape, strict=True))
     if contact.all() and contact.ndim == 2:  # on flat heights alone nothing tells how deep a punch is
         contact = np.pad(contact, (0, 2))
-    step, is_thick = load_step(1.0, None, "load"), False
-    if Trait.LAYER in scene.traits:
-        whole, wave = scene.compliance(np.array([0.0, 2 * np.pi / max(scene.lengths)]))
-        is_thick = whole > THICK * wave
-        step = load_step(None, 1 / whole, "load") if is_thick else step
+    step = _choose_step(scene)
     pressed = _press_punch(scene, contact, spacing, step, tolerance, threads)
-    while is_thick and pressed.status.solved and (pressed.contact & ~contact).any():  # the surface beside it touches
+    while pressed.status.solved and (pressed.contact & ~contact).any():  # too large a load: what is beside it touches
         step = load_step(None, step.value / pressed.approach, "load")
         pressed = _press_punch(scene, contact, spacing, step, tolerance, threads)
     load = pressed.mean_pressure * contact.size / result.contact.size
     return load / pressed.approach if pressed.status.solved else np.nan
 
 
+def _choose_step(scene: Scene) -> LoadStep:
+    """Return an approach of one unit of length or, for a thick layer, a load by which the approach is one or more.
+
+    A thick layer gives far more as a whole than to any wave, so that little of an approach would tell of the contact.
+    """
+    if Trait.LAYER in scene.traits:
+        whole, wave = scene.compliance(np.array([0.0, 2 * np.pi / max(scene.lengths)]))
+        if whole > THICK * wave:
+            return load_step(None, 1 / whole, "load")
+    return load_step(1.0, None, "load")
+
+
 def _press_punch(
     scene: Scene, contact: Array, spacing: tuple[float, ...], step: LoadStep, tolerance: float, threads: int
 ) -> Result:
-    """Return the result of pressing a flat punch that has the shape of a contact.
-
-    It approaches by one unit of length. A thick layer gives far more as a whole than to any wave: there the approach
-    follows from a load, by which it is one or more.
-    """
+    """Return the result of pressing a flat punch that has the shape of a contact."""
     punch = _punch(scene, contact, spacing, step)
     heights = punch.upper.surface.heights(contact.shape[-1])
     problem, scale = pose_hard_wall(punch, step, heights, 1.0, threads)

@@ -6,7 +6,7 @@ import math
 import unicodedata
 import zipfile
 import zlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -18,8 +18,18 @@ from contactsim.errors import LARGEST, NUMBER, POSITIVE, InputError, Words, is_p
 from contactsim.grid import Array
 
 UNITS = {
-    **{"m": 1e9, "mm": 1e6, "um": 1e3, "\u03bcm": 1e3, "micrometer": 1e3, "micron": 1e3, "microns": 1e3},
-    **{"nm": 1.0, "angstrom": 0.1, "\u00c5": 0.1, "pm": 1e-3, "inch": 2.54e7},
+    "m": 1e9,
+    "mm": 1e6,
+    "um": 1e3,
+    "\u03bcm": 1e3,
+    "micrometer": 1e3,
+    "micron": 1e3,
+    "microns": 1e3,
+    "nm": 1.0,
+    "angstrom": 0.1,
+    "\u00c5": 0.1,
+    "pm": 1e-3,
+    "inch": 2.54e7,
 }
 TEXT = (".csv", ".txt", ".xyz", ".dat")
 COMPRESSED = {".gz": "gzip", ".bz2": "bz2"}
@@ -182,17 +192,18 @@ def load_mat(file: Path, variable: str | None) -> NDArray[Any]:
     """Return the matrix in a .mat file, with a row for each y, by its name if there are several; a vector is a line."""
     from scipy.io import loadmat, whosmat  # slow to import
 
-    try:
-        shapes = {name: shape for name, shape, kind in whosmat(file) if len(shape) == 2 and kind in MATRICES}
-    except NotImplementedError as error:
-        allowed = "a .mat file of version 7 or less (in MATLAB: save -v7), or heights in .h5"
-        raise InputError("path", str(file), allowed, file) from error
-    matrices = [name for name, shape in shapes.items() if min(shape) > 1]
-    names = [variable] if variable is not None else matrices or [name for name in shapes if max(shapes[name]) > 1]
-    if len(names) != 1 or names[0] not in shapes:
-        raise InputError("variable", variable, f"the name of the heights, of those: {list(shapes)}", file)
-    check_count(shapes[names[0]], "heights", file)
-    matrix: NDArray[Any] = loadmat(file, variable_names=names)[names[0]]
+    with report_unreadable(file, Exception):  # what scipy raises is of many kinds
+        try:
+            shapes = {name: shape for name, shape, kind in whosmat(file) if len(shape) == 2 and kind in MATRICES}
+        except NotImplementedError as error:  # of version 7.3
+            allowed = "a .mat file of version 7 or less (in MATLAB: save -v7), or heights in .h5"
+            raise InputError("path", str(file), allowed, file) from error
+        matrices = [name for name, shape in shapes.items() if min(shape) > 1]
+        names = [variable] if variable is not None else matrices or [name for name in shapes if max(shapes[name]) > 1]
+        if len(names) != 1 or names[0] not in shapes:
+            raise InputError("variable", variable, f"the name of the heights, of those: {list(shapes)}", file)
+        check_count(shapes[names[0]], "heights", file)
+        matrix: NDArray[Any] = loadmat(file, variable_names=names)[names[0]]
     return matrix if min(matrix.shape) > 1 else matrix.ravel()
 
 
@@ -208,3 +219,11 @@ def check_count(shape: Sequence[int], key: str, file: object) -> None:
     """Raise an InputError for more numbers than a measurement may have, before memory is taken for them."""
     if math.prod(map(int, shape)) > MAX_HEIGHTS:
         raise InputError(key, Words(f"shape {tuple(shape)}"), f"at most {MAX_HEIGHTS} numbers", file)
+
+
+LOADERS: dict[str, Callable[[Path, str | None], NDArray[Any]]] = {
+    ".npy": lambda file, variable: load_npy(file),
+    ".npz": load_npz,
+    ".mat": load_mat,
+}
+"""Readers of files of arrays by their suffix."""

@@ -103,16 +103,13 @@ def _read(
         suffix = ".txt"
     if suffix not in SUFFIXES:
         return read_instrument(file, dimensions, unit, variable)
-    with io.report_unreadable(file, *(Exception,) * (suffix == ".mat")):  # scipy's errors are of many kinds
+    with io.report_unreadable(file):
         if suffix in HDF5:
             return read_netcdf(file, dimensions, unit, variable)
         if suffix in TEXT:
             return read_text(file, dimensions, unit, delimiter, with_gaps)
         scale = io.unit_factor("heights", None, "nm" if unit is None else unit, file)
-        if suffix == ".npy":
-            array = io.load_npy(file)
-        else:
-            array = io.load_npz(file, variable) if suffix == ".npz" else io.load_mat(file, variable)
+        array = io.LOADERS[suffix](file, variable)
         heights = io.real_numbers(array, "heights", file, scale, dimensions or dimensions_of(array))
         return heights, (None,) * heights.ndim
 

@@ -100,11 +100,11 @@ class Text:
         """Return all numbers, much faster than line by line; None if a line is anything else, such as a comment."""
         mark = None if self.mark == " " else self.mark
         with open_text(self.file) as stream:
-            text: Iterable[str] = stream
+            text: Iterable[str] = itertools.islice(stream, self.first - 1, None)
             if self.decimal != ".":
-                text = (_with_points(line) for line in text)
+                text = map(_with_points, text)
             try:
-                return np.loadtxt(text, delimiter=mark, comments=None, skiprows=self.first - 1, ndmin=2)
+                return np.loadtxt(text, delimiter=mark, comments=None, ndmin=2)
             except ValueError:
                 return None
 

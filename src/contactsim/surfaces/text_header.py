@@ -1,4 +1,4 @@
-"""What a text file of heights states before its numbers: sizes, spacing, units.
+"""The header of a text file of heights, before its numbers: sizes, spacing, units.
 
 Statements are lines like `# Width: 12.3 µm`, `h=305 w=75` or `Value units: m`, in comments or not, as Gwyddion,
 interferometers and profilers write them, in English or German. A line that names the columns, like `x [um], z [nm]` or
