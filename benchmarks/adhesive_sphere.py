@@ -74,7 +74,6 @@ def pull(case: dict, quick: bool) -> dict:
         "radius_over_jkr": float(np.sqrt(area / np.pi) / wanted),
         "states": force.size,
         "failed": int((data.status != 0).sum()),
-        "jumps": int((data.jump > 0).sum()),
         "transforms": float(data.transforms.sum()),
         "seconds": seconds,
     }
@@ -94,7 +93,7 @@ BENCHMARK = Benchmark(
     case=("maugis_parameter", "points"),
     found=(
         *("zone_steps", "pull_off", "maugis_pull_off", "radius_over_jkr", "states", "failed"),
-        *("jumps", "transforms", "seconds"),
+        *("transforms", "seconds"),
     ),
     table={
         "maugis_parameter": ("Maugis's parameter", "{:g}"),

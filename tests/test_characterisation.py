@@ -11,6 +11,7 @@ from matplotlib import get_data_path
 
 import contactsim as cs
 from contactsim.cli import main
+from contactsim.error_control.estimates import tell_error
 from contactsim.figures.characterisation import plot_characterisation
 from contactsim.observables.contact import relative_contact_area_subgrid
 from contactsim.status import FLAGS
@@ -29,29 +30,31 @@ def surface(points=128):
 
 
 @pytest.mark.parametrize("periodic", [True, False])
-def test_numbers_are_those_of_single_loads_and_errors_the_change_on_every_second_point(periodic):
+def test_numbers_are_those_of_single_loads_and_errors_told_by_every_second_and_fourth_point(periodic):
     whole = surface()
     data = cs.characterise(whole, contact_modulus=1.0, mean_pressures=LOADS, periodic=periodic)
-    half = cs.Topography(whole.values[::2, ::2], 2.0)
-    for load in LOADS:
-        at = data.sel(mean_pressure=load)
-        results = [
+    parts = [cs.Topography(whole.values[::stride, ::stride], stride) for stride in (4, 2)]
+    results = [
+        [
             cs.press(heights, contact_modulus=1.0, mean_pressure=load, tolerance=1e-4, periodic=periodic)
-            for heights in (whole, half)
+            for load in LOADS
         ]
-        for name, read in {
-            "approach": lambda result: result.approach,
-            "mean_gap": lambda result: result.gap.mean(),
-            "max_pressure": lambda result: result.pressure.max(),
-            "contact_stiffness": cs.contact_stiffness,
-            "relative_contact_area_subgrid": lambda result: relative_contact_area_subgrid(
-                result.pressure, result.gap, periodic
-            ),
-        }.items():
-            fine, coarse = map(read, results)
-            assert at[name] == pytest.approx(fine, rel=1e-12)
-            assert at[f"{name}_grid_error"] == pytest.approx(abs(fine - coarse), rel=1e-9)
-        assert at.patches == cs.find_patches(results[0].contact, periodic).count
+        for heights in (*parts, whole)
+    ]
+    for name, read in {
+        "approach": lambda result: result.approach,
+        "mean_gap": lambda result: result.gap.mean(),
+        "max_pressure": lambda result: result.pressure.max(),
+        "contact_stiffness": cs.contact_stiffness,
+        "relative_contact_area_subgrid": lambda result: relative_contact_area_subgrid(
+            result.pressure, result.gap, periodic
+        ),
+    }.items():
+        values = [np.array(list(map(read, row))) for row in results]
+        assert data[name].values == pytest.approx(values[-1], rel=1e-12)
+        assert data[f"{name}_grid_error"].values == pytest.approx(tell_error(values, (2.0, 2.0)), rel=1e-9)
+    for load, result in zip(LOADS, results[-1], strict=True):
+        assert data.sel(mean_pressure=load).patches == cs.find_patches(result.contact, periodic).count
     assert data.contact_stiffness.attrs["units"] == "GPa/nm"
     assert data.rms_height == pytest.approx(whole.values.std())
 
@@ -172,7 +175,7 @@ def test_the_command_doubts_contacts_of_few_points_and_pressures_beyond_the_modu
     assert re.search(r"a largest pressure of [\d.]+ E\* at 0.5 GPa: strains are not small", text)
     assert "fewer than" not in text
     np.save(tmp_path / "flat.npy", 1e-3 * np.random.default_rng(1).normal(size=(20, 20)))
-    pair = ["--other", str(tmp_path / "flat.npy"), "--offset", "12", "12"]
+    pair = ["--other", str(tmp_path / "flat.npy"), "--offset", "4", "4"]
     main([*press, "100", "10", "0.02", *pair, "--periodic"])
     assert "contact everywhere at 10 GPa and more" in capsys.readouterr().out
     main([*press, "0.02", *pair])
@@ -238,14 +241,14 @@ def test_what_is_no_contact_no_dataset_and_no_body_is_refused():
         cs.find_patches(result)
     with refused("data", "characterise"):
         cs.plot_characterisation(result)
-    with refused("lower", "its elasticity"):
+    with refused("lower", "an Elasticity: HalfSpace(contact_modulus)"):
         cs.Scene(surface(), cs.HalfSpace(1.0), cs.HardWall(), cs.pressures([0.1]))
     for upper in (cs.HalfSpace(1.0), cs.Cylinder):
-        with refused("upper", "its surface"):
+        with refused("upper", "a Surface: Cylinder(length, radius)"):
             cs.Scene(cs.HalfSpace(1.0), upper, cs.HardWall(), cs.pressures([0.1]))
-    with refused("elasticity", "or None: rigid"):
+    with refused("elasticity", "an Elasticity"):
         cs.Body(surface(), surface())
-    with refused("surface", "a Topography"):
+    with refused("surface", "a Surface"):
         cs.Body(cs.HalfSpace(1.0))
     with refused("stiffness", "0 or more"):
         cs.conductance(-1.0, 1.0, (1.0, 1.0))
@@ -331,7 +334,7 @@ def test_the_command_presses_two_scans_that_repeat_and_tells_their_conductance(t
     text = capsys.readouterr().out
     for more, message in (
         (["--other", str(tmp_path / "small.npy")], r"--other .*small\.npy: got shape \(32, 32\)"),
-        ([*both[:2], "--offset", "125", "0"], r"--offset: got \(125, 0\); allowed: one that leaves 8"),
+        ([*both[:2], "--offset", "125", "0"], r"--offset: got \(125, 0\); allowed: one that leaves 16"),
     ):
         np.save(tmp_path / "small.npy", heights[:32, :32])
         periodic = ["--periodic"] if "small" in more[1] else []

@@ -25,7 +25,7 @@ from contactsim import (
     simulate,
     sliding,
 )
-from contactsim.errors import LARGEST, SMALLEST, is_number, is_positive, is_whole, read_numbers
+from contactsim.errors import LARGEST, SMALLEST, is_number, is_positive, is_whole
 
 STRANGE = [
     "x", "", None, fractions.Fraction(1, 3), decimal.Decimal("0.5"), np.float16(0.5), np.float32(0.5), [], [1.0, 2.0],
@@ -54,11 +54,11 @@ GOOD = {
     "FrictionalRepulsiveZone": LAW | {"friction_coefficient": 0.3, "tangential_length": 1.0},
     "StiffMixedZone": MIXED | {"contact_stiffness": 1.0},
     "Lattice": {"lattice_constant": 10.0, "tangential_cutoff": 5.0, "normal_cutoff": 40.0, "weight": 1.0},
-    "Requested": {"fold_width": 0.002},
-    "Adaptive": {"error": 1e-3, "least": 0.01, "most": 2.0, "fold_width": 0.002},
+    "Requested": {"fold_width": 0.002, "budget": 1e4},
+    "Adaptive": {"error": 1e-3, "least": 0.01, "most": 2.0, "fold_width": 0.002, "budget": 1e4},
     "Nested": {
         "full_grid_at": [0.0], "coarse_ratio": 4, "intermediate_ratio": 2, "coarse_tolerance": 1e-3,
-        "intermediate_tolerance": 1e-4,
+        "intermediate_tolerance": 1e-4, "budget": 1e4,
     },
     "pressures": {"values": [0.1, 0.2], "increment": None, "labels": ("a", "b"), "from_touch": False},
     "approaches": {"values": [0.0, 1.0], "increment": 0.5, "from_touch": False},
@@ -96,11 +96,12 @@ def test_numbers_are_bounded_so_that_squares_are_neither_zero_nor_infinite():
 
 
 def test_lists_of_numbers_are_lists_and_have_a_least_length():
-    assert read_numbers("x", (value for value in (1, 2))) == (1.0, 2.0)
+    assert [step.value for step in pressures(value for value in (1, 2)).steps] == [1.0, 2.0]
     for values in ("12", b"12", {1: 2}, {1, 2}, 3.0, None, [1.0, None], np.ones((2, 2)), [], [np.inf]):
-        with pytest.raises(InputError, match=r"^x: got"):
-            read_numbers("x", values)
-    assert read_numbers("x", [], least=0) == ()
+        with pytest.raises(InputError, match=r"^values: pressures needs a list of one or more numbers"):
+            pressures(values)
+    with pytest.raises(InputError, match=r"^turning_points: .* two or more numbers"):
+        sliding([1.0], 1.0, approach=0.0)
 
 
 PATH = approaches([-2.0, 0.0])

@@ -7,13 +7,15 @@ from pathlib import Path
 
 import pytest
 
-from contactsim.code_digest.modules import imports_of, package_root
+from contactsim.code_digest import module_path, package_root, read_source
 from contactsim.provenance import PACKAGE
 
 ROOT = Path(__file__).parents[1]
 FLOORS = (
     (
         "errors",
+        "fft",
+        "arguments",
         "durations",
         "grid",
         "traits",
@@ -27,6 +29,7 @@ FLOORS = (
         "reference",
         "code_digest",
     ),
+    ("topography_files",),
     ("surfaces",),
     ("elasticity",),
     ("interface",),
@@ -47,7 +50,17 @@ FLOORS = (
     ("cli",),
 )
 """Packages from the ground up: each may import itself and those before it; modules of one floor may share."""
-LIBRARY = ("surfaces", "elasticity", "interface", "contact", "solvers", "observables", "paths", "error_control")
+LIBRARY = (
+    "topography_files",
+    "surfaces",
+    "elasticity",
+    "interface",
+    "contact",
+    "solvers",
+    "observables",
+    "paths",
+    "error_control",
+)
 
 
 def rooms() -> dict[str, set[str]]:
@@ -61,11 +74,17 @@ def rooms() -> dict[str, set[str]]:
     return found
 
 
+def imports_of(module: str) -> frozenset[str]:
+    """Modules of this package that a module imports, for types too."""
+    _, executed, for_types = read_source(module_path(module))
+    return executed | for_types
+
+
 def imported_rooms(room: str) -> dict[str, set[str]]:
     """Rooms that a room imports, each with the modules that do."""
     found: dict[str, set[str]] = {}
     for module in rooms()[room]:
-        for name in imports_of(f"{PACKAGE}.{module}") - {PACKAGE}:
+        for name in imports_of(f"{PACKAGE}.{module}"):
             found.setdefault(name.split(".")[1], set()).add(module)
     return found
 

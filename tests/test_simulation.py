@@ -67,7 +67,7 @@ def test_bad_input_is_refused_with_key_and_what_is_allowed(change, key, allowed)
 
 @pytest.mark.parametrize(
     ("spacing", "value"),
-    [((1, 2, 3), "(1, 2, 3)"), ((1, -2), "-2"), (np.array([0, 1]), "0"), (np.float64(-1.5), "-1.5"), ("a", "'a'")],
+    [((1, 2, 3), "(1.0, 2.0, 3.0)"), ((1, -2), "-2.0"), (np.array([0, 1]), "0.0"), (np.float64(-1.5), "-1.5")],
 )
 def test_a_bad_spacing_of_a_surface_is_named_in_plain_numbers(spacing, value):
     with pytest.raises(InputError) as caught:
@@ -170,7 +170,7 @@ LAYERED = contactsim.Scene(
         ({"within": "0.1"}, "within"),
         ({"quantities": "final_contact_length"}, "quantities"),
         ({"quantities": ["final_length"]}, "quantities"),
-        ({"quantities": []}, "quantities"),
+        ({"quantities": ["relative_contact_area_subgrid"]}, "quantities"),
     ],
 )
 def test_what_cannot_be_neglected_is_refused_before_anything_is_solved(options, key):

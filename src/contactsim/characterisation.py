@@ -8,21 +8,25 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
+from contactsim.arguments import Modulus, checked
 from contactsim.contact.loading import pressures
 from contactsim.contact.scene import Body, Scene
 from contactsim.dataset import describe
-from contactsim.error_control.measured import MIN_POINTS
-from contactsim.errors import InputError, Words, check_option_names, is_number
+from contactsim.error_control.estimates import tell_error
+from contactsim.error_control.measured import MIN_POINTS, STRIDES
+from contactsim.errors import InputError, Words
+from contactsim.grid import Threads
 from contactsim.interface.hard_wall import HardWall
-from contactsim.observables.conductance import conductance
+from contactsim.observables.conductance import Conductivities, conductance
 from contactsim.simulation import simulate
-from contactsim.single_load import check_tolerance, choose_elasticity
+from contactsim.single_load import Tolerance, choose_elasticity
 from contactsim.solvers.base import HardWallSolver
+from contactsim.solvers.registry import SolverName
 from contactsim.status import is_solved
 from contactsim.surfaces.pair import add_heights
 from contactsim.surfaces.shapes import Flat
 from contactsim.surfaces.spectral_moments import nayak_parameter
-from contactsim.surfaces.topography import Topography
+from contactsim.surfaces.topography import Measured, Topography
 from contactsim.traits import Trait
 
 logger = logging.getLogger(__name__)
@@ -44,34 +48,35 @@ WITHOUT_ERROR = ("patches", "contact_modulus", "length", "length_y")
 """Numbers that are exact or whole."""
 
 
-@check_option_names
+@checked
 def characterise(
-    topography: Topography,
-    other: Topography | None = None,
+    topography: Measured,
+    other: Measured | None = None,
     *,
-    contact_modulus: float,
-    mean_pressures: Sequence[float],
-    offset: int | tuple[int, int] | None = None,
-    hardness: float | None = None,
-    conductivities: tuple[float, float] | None = None,
-    tolerance: float = 1e-4,
-    threads: int = 1,
+    contact_modulus: Modulus,
+    mean_pressures: float | Sequence[float],
+    offset: int | Sequence[int] | None = None,
+    hardness: Modulus | None = None,
+    conductivities: Conductivities | None = None,
+    tolerance: Tolerance = 1e-4,
+    threads: Threads = 1,
     periodic: bool | None = None,
     thickness: float | None = None,
     poisson_ratio: float | None = None,
-    solver: str | HardWallSolver | None = None,
+    solver: SolverName | HardWallSolver | None = None,
 ) -> xr.Dataset:
     """Press a surface at several loads and return what the contact transmits, with its error.
 
-    All is done once more with every second point, of an even number each way. The change is the error: of the grid
-    where the heights are resolved, and where they are rough down to the spacing, what finer points would add. An error
-    as large as the number says that the spacing decides it. It is not a bound: under heights that are not periodic the
-    pressure along the rim, as under a punch, and along the edges of patches grows with each refinement.
+    All is done once more with every second and every fourth point, of a part whose numbers of points four divides. The
+    changes tell the error (`contactsim.error_control.estimates`): of the grid where the heights are resolved, and where
+    they are rough down to the spacing, what finer points would add. An error as large as the number says that the
+    spacing decides it. It is not a bound: under heights that are not periodic the pressure along the rim, as under a
+    punch, and along the edges of patches grows with each refinement.
 
     Parameters
     ----------
     topography : Topography
-        Heights of a body, 8 points or more each way, nm.
+        Heights of a body, 16 points or more each way, nm.
     other : Topography, optional
         Heights of the other body, positive towards the first; flat without it. Of two scans, each seen from outside its
         body, one has to be mirrored.
@@ -107,13 +112,7 @@ def characterise(
     InputError
         For an input that cannot be used.
     """
-    for name, surface in {"topography": topography, "other": other}.items():
-        if not isinstance(surface, Topography) and not (name == "other" and surface is None):
-            raise InputError(name, surface, "a Topography")
     loads = _read_loads(mean_pressures)
-    check_tolerance(tolerance)
-    if conductivities is not None:
-        conductance(0.0, contact_modulus, conductivities)  # refused before the contact is solved
     elasticity = choose_elasticity(topography, contact_modulus, thickness, poisson_ratio, periodic)
     topography = add_heights(topography, other, offset, Trait.FREE not in elasticity.traits)
     if min(topography.values.shape) < MIN_POINTS:
@@ -133,26 +132,29 @@ def characterise(
             data = data.assign(contact_conductance=("step", np.atleast_1d(through)))
         return _select_numbers(data, surface, scene.repeats, loads)
 
-    even = topography.even_part()
-    fine = numbers_of(topography)
-    logger.info("the same with every second point")
-    coarse = numbers_of(even.every_second())
-    base = fine
-    if even is not topography:
-        logger.info("the same without the last row and column, to compare with every second point")
-        base = numbers_of(even)
+    fine, divisible = numbers_of(topography), topography.thinned(1)
+    if divisible is not topography:
+        logger.info("the same without the last rows and columns, to compare with every second and fourth point")
+    runs = [fine if divisible is topography else numbers_of(divisible)]
+    for stride in reversed(STRIDES):
+        logger.info("the same with one point in %d", stride)
+        runs.insert(0, numbers_of(topography.thinned(stride)))
     names = [name for name in (*NUMBERS, *OF_HEIGHTS, "nayak_parameter") if name in fine and name not in WITHOUT_ERROR]
-    return describe(fine.assign({f"{name}_grid_error": abs(base[name] - coarse[name]) for name in names}))
+    errors = {
+        name: tell_error([np.atleast_1d(run[name].values) for run in runs], [2.0] * (len(runs) - 1)) for name in names
+    }
+    shaped = {f"{name}_grid_error": (fine[name].dims, size.reshape(fine[name].shape)) for name, size in errors.items()}
+    return describe(fine.assign(shaped))
 
 
-def _read_loads(mean_pressures: Sequence[float]) -> list[float]:
-    """Return mean pressures as floats; InputError unless they are positive, each once."""
-    loads = np.atleast_1d(np.asarray(mean_pressures, object))
-    if loads.ndim != 1 or not loads.size or not all(is_number(value) and value > 0 for value in loads):
+def _read_loads(mean_pressures: float | Sequence[float]) -> list[float]:
+    """Return mean pressures in a list; InputError unless they are positive, each once."""
+    loads = list(mean_pressures) if isinstance(mean_pressures, Sequence) else [mean_pressures]
+    if not loads or min(loads) <= 0:
         raise InputError("mean_pressures", mean_pressures, "positive numbers, in GPa")
-    if len({*loads.tolist()}) < loads.size:
+    if len({*loads}) < len(loads):
         raise InputError("mean_pressures", mean_pressures, "each number once")
-    return [float(value) for value in loads]
+    return loads
 
 
 def _select_numbers(data: xr.Dataset, surface: Topography, repeats: bool, loads: list[float]) -> xr.Dataset:

@@ -14,9 +14,9 @@ import xarray as xr
 
 from contactsim import dataset, seals
 from contactsim.analysis.table_comparison import difference_text, is_within
-from contactsim.error_control.control import solve_to_error
 from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.forecast import describe_forecasts, forecast_run
+from contactsim.error_control.ladder import solve_to_error
 from contactsim.error_control.options import choose_options
 from contactsim.errors import InputError
 from contactsim.evaluation import estimate

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from contactsim.arguments import FileName, checked
 from contactsim.errors import InputError
 from contactsim.files import write_atomically
 from contactsim.provenance import canonical, versions
@@ -68,7 +69,8 @@ def write(data: xr.Dataset, path: str | Path) -> None:
     write_atomically(path, lambda file: data.to_netcdf(file, engine="netcdf4", format="NETCDF4", encoding=encoding))
 
 
-def load_dataset(path: str | Path) -> xr.Dataset:
+@checked
+def load_dataset(path: FileName) -> xr.Dataset:
     """Read a dataset into memory and close the file."""
     try:
         return xr.load_dataset(path, engine="netcdf4")

@@ -7,15 +7,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from pathlib import Path
+from typing import Annotated, Any
 
-import ducc0
 import numpy as np
 from numpy.typing import NDArray
 
-from contactsim.errors import InputError
+from contactsim import fft
+from contactsim.arguments import Only
+from contactsim.errors import InputError, is_whole
 from contactsim.threads import T, share_work
 
 Array = NDArray[Any]
@@ -25,10 +28,32 @@ MAX_POINTS = 2**30
 """Most points of a grid: one field of them takes 8 GiB."""
 MAX_THREADS = 1024
 """Most threads of a transform."""
+Threads = Annotated[
+    int, Only(f"a whole number, 1 to {MAX_THREADS}", lambda value: is_whole(value) and value <= MAX_THREADS)
+]
+SMALL_MEMORY = 2**28
+"""Bytes that are taken without a look at what is free."""
 PADDING = 8
 """Extra columns of a wide field: transforms are several times slower if rows start a power of two apart."""
 BLOCK, SHARED_BLOCK = 2**20, 2**18
 """Points worked on at a time, in whole rows, to keep temporary arrays small: by default, and where threads share."""
+
+
+def check_memory(points: int, shape: tuple[int, ...], fields: float = 1.0) -> None:
+    """Raise an InputError for a grid, of `points` points along x, whose fields need more memory than is free."""
+    needed = 8 * fields * math.prod(shape)
+    if needed > SMALL_MEMORY and needed > (free := free_memory()):
+        allowed = f"fewer: they need {needed / 2**30:.3g} GiB of memory, and {free / 2**30:.3g} GiB are free"
+        raise InputError("points", points, allowed)
+
+
+def free_memory() -> float:
+    """Return the memory in bytes that can be used without swapping; infinite where the system does not tell."""
+    try:
+        lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
+        return next(1024.0 * int(line.split()[1]) for line in lines if line.startswith("MemAvailable"))
+    except (OSError, StopIteration):
+        return math.inf
 
 
 def blocks(shape: tuple[int, ...], points: int = BLOCK) -> Iterator[tuple[int, int]]:
@@ -150,11 +175,11 @@ class Grid:
         out : complex array, shape `half_shape`, optional
             Receives the result.
         """
-        return ducc0.fft.r2c(field, forward=True, inorm=2, nthreads=self.threads, out=out)
+        return fft.forward(field, out=out, threads=self.threads)
 
     def backward(self, coefficients: Array, out: Array | None = None) -> Array:
         """Return the real field, shape `shape`, that has these coefficients; the inverse of `forward`."""
-        return ducc0.fft.c2r(coefficients, lastsize=self.shape[-1], forward=False, nthreads=self.threads, out=out)
+        return fft.backward(coefficients, self.shape[-1], out=out, threads=self.threads)
 
     @cached_property
     def half_size(self) -> int:
@@ -165,14 +190,14 @@ class Grid:
         """Return the coefficients (rows, half_size) of real fields (rows, size), each in the order of the grid."""
         axes = tuple(range(1, 1 + len(self.shape)))
         shaped = fields.reshape(len(fields), *self.shape)
-        half = ducc0.fft.r2c(shaped, axes=axes, forward=True, inorm=2, nthreads=self.threads)
+        half = fft.forward(shaped, axes, threads=self.threads)
         return half.reshape(len(fields), -1)
 
     def backward_rows(self, coefficients: Array) -> Array:
         """Return the real fields (rows, size) that have these coefficients; the inverse of `forward_rows`."""
         axes = tuple(range(1, 1 + len(self.shape)))
         shaped = coefficients.reshape(len(coefficients), *self.half_shape)
-        fields = ducc0.fft.c2r(shaped, axes=axes, lastsize=self.shape[-1], forward=False, nthreads=self.threads)
+        fields = fft.backward(shaped, self.shape[-1], axes, threads=self.threads)
         return fields.reshape(len(coefficients), -1)
 
     @cached_property
@@ -189,16 +214,48 @@ class Grid:
         return Grid(shape, self.lengths, self.threads)
 
 
+FACTOR_COST, CALL_COST = 0.07, 2e5
+"""Time of a dense matrix's factors, for each unknown cubed, and of the work beside a transform, in that of a transform,
+for its points times their log2."""
+
+
+class OutOfWorkError(Exception):
+    """The work that was granted is spent."""
+
+
 @dataclass
 class TransformCounter:
     """Number of real transforms so far.
 
-    A transform on a coarser grid counts as the ratio of its points to `finest`, the points of the finest grid.
+    A transform on a coarser grid counts as the ratio of its points to `finest`, the points of the finest grid. What is
+    granted pays for dense matrices too, in the transforms that take as long.
     """
 
     finest: int
     transforms: float = 0.0
+    _dense: float = 0.0
+    _limit: float = math.inf
 
     def add(self, count: int, size: int) -> None:
-        """Count `count` transforms on a grid of `size` points."""
+        """Count `count` transforms on a grid of `size` points; raise OutOfWorkError beyond the number granted."""
         self.transforms += count * size / self.finest
+        if self.spent > self._limit:
+            raise OutOfWorkError
+
+    def add_factors(self, unknowns: int) -> None:
+        """Add the factors of a dense matrix with that many unknowns to what is spent, not to the transforms."""
+        self._dense += FACTOR_COST * unknowns**3 / (self.finest * math.log2(self.finest + 1) + CALL_COST)
+
+    @property
+    def spent(self) -> float:
+        """Transforms, and those that take as long as all dense matrices."""
+        return self.transforms + self._dense
+
+    @contextmanager
+    def granted(self, transforms: float) -> Iterator[None]:
+        """Grant a number of transforms to what is done within."""
+        self._limit = self.spent + transforms
+        try:
+            yield
+        finally:
+            self._limit = math.inf

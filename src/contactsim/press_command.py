@@ -15,7 +15,7 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.characterisation import characterise
-from contactsim.code_digest.modules import source_digest
+from contactsim.code_digest import source_digest
 from contactsim.commands import DRAWN
 from contactsim.errors import InputError
 from contactsim.evaluation.estimate import align_right
@@ -193,8 +193,8 @@ def _doubts(heights: Topography, data: xr.Dataset) -> list[str]:
     if strained.size:
         words = f"a largest pressure of {float(strained[0]):.3g} E* at {float(strained.mean_pressure[0]):g} GPa"
         doubts.append(f"{words}: strains are not small; pressures and E* are in GPa")
-    if np.isnan(data.mean_gap_grid_error.values[is_solved(data.status).values]).any():
-        doubts.append("± nan: of fewer points, with which it is compared, this load has no solution")
+    if np.isinf(data.mean_gap_grid_error.values[is_solved(data.status).values]).any():
+        doubts.append("± inf: not known, as this load has no solution on fewer points")
     closed = data.mean_pressure[data.relative_contact_area_subgrid.values >= 1]
     if closed.size:
         first = float(closed.min())
@@ -220,7 +220,7 @@ def _press_table(data: xr.Dataset) -> str:
     ]
     widths = [max(map(len, column)) for column in zip(heads, units, *rows, strict=True)]
     lines = [align_right(row, widths).rstrip() for row in (heads, units, *rows)]
-    return "\n".join([*lines, "±: how much a number changes if every second point is left out; not a bound"])
+    return "\n".join([*lines, "±: estimated from one point in four, in two, and all; not a bound"])
 
 
 def _with_error(data: xr.Dataset, name: str) -> str:
@@ -228,7 +228,7 @@ def _with_error(data: xr.Dataset, name: str) -> str:
     value, error = float(data[name]), float(data[f"{name}_grid_error"])
     if np.isinf(value):
         return f"{value:g}"
-    if not (np.isfinite(value) and error > 0):
+    if not (np.isfinite(value) and 0 < error < np.inf):
         return f"{value:.4g} ± {error:.2g}"
     digits = max(int(np.floor(np.log10(abs(value) or error))) - int(np.floor(np.log10(error))) + 1, 0)
     mantissa, _, exponent = f"{value:.{digits}e}".partition("e")

@@ -7,46 +7,48 @@ from collections.abc import Sequence
 
 import xarray as xr
 
+from contactsim.arguments import Count, Positive, checked
 from contactsim.contact.scene import Scene
-from contactsim.error_control.control import solve_to_error
 from contactsim.error_control.effect_maps import neglect_effects
 from contactsim.error_control.forecast import Forecast, forecast_run
+from contactsim.error_control.ladder import solve_to_error, solve_with_errors
 from contactsim.error_control.neglect import Decision, decide_neglect
-from contactsim.errors import InputError, check_option_names, is_positive
+from contactsim.error_control.options import check_quantities
+from contactsim.errors import InputError, is_positive
 from contactsim.explanation import Explanation, explain_setup
+from contactsim.grid import Threads
 from contactsim.paths.driver import follow_path
 from contactsim.paths.increments import Increments
 from contactsim.paths.options import Accuracy, RunOptions, Setup
 from contactsim.solvers.base import HardWallSolver
 from contactsim.solvers.cohesive.base import CohesiveSolver
-from contactsim.solvers.registry import make_solver
+from contactsim.solvers.registry import SolverName, make_solver
 from contactsim.status import warn_of_excess
-from contactsim.variables import RESULTS
 
 logger = logging.getLogger(__name__)
 
 
-@check_option_names
+@checked
 def simulate(
     scene: Scene,
     *,
-    points: int | None = None,
+    points: Count | None = None,
     tolerance: float | None = None,
     accuracy: float | None = None,
+    errors: bool = False,
     quantities: Sequence[str] = (),
-    solver: str | HardWallSolver | CohesiveSolver | None = None,
+    solver: SolverName | HardWallSolver | CohesiveSolver | None = None,
     increments: Increments | None = None,
     snapshots: Sequence[float] | None = None,
     keep: Sequence[str] | None = None,
     keep_fields: bool | None = None,
     until: str | None = None,
-    threads: int = 1,
+    threads: Threads = 1,
 ) -> xr.Dataset:
     """Follow the load path of a scene.
 
-    Grid, tolerance and increments are as given or, with an accuracy, chosen for it. The scene is then solved on two
-    grids, the error is estimated, and the grid is refined if need be: at most twice where the errors of such scenes
-    were measured, else until the error is met, on six grids at most.
+    Grid, tolerance and increments are as given or, with an accuracy, chosen for it: the scene is solved on finer and
+    finer grids, in shorter and shorter increments, until the error that their changes tell is small enough.
 
     Parameters
     ----------
@@ -57,9 +59,12 @@ def simulate(
     tolerance : float, optional
         In grid steps at a hard wall, in parts of the strength with cohesive laws; 1e-3 by default.
     accuracy : float, optional
-        Relative error of the quantities, in place of points, tolerance and increments.
+        Relative error of the quantities, in place of points, tolerance and increments. A path of single values keeps
+        them: what lies between them is no part of the error.
+    errors : bool
+        True to tell the errors of quantities on the points given: the scene is solved on coarser grids too.
     quantities : sequence of str, optional
-        Quantities whose error counts; those usual for the scene by default.
+        Quantities whose error counts or is told; those usual for the scene by default.
     solver : str or solver, optional
         Name of a solver, or a solver with options of its own; the default solver of the scene where None.
     increments : Increments, optional
@@ -81,7 +86,7 @@ def simulate(
     -------
     xarray.Dataset
         One dataset with dimension `step`: numbers, and what is kept. `seconds` is the one variable that is not
-        reproducible.
+        reproducible. With an accuracy, or errors, `NAME_estimated_error` is the error of a quantity, in its unit.
 
     Raises
     ------
@@ -102,15 +107,14 @@ def simulate(
     )
     setup = Setup(scene, options)
     if accuracy is None:
-        if quantities:
-            raise InputError("quantities", list(quantities), "none without an accuracy")
-        data = follow_path(setup)
+        if quantities and not errors:
+            raise InputError("quantities", list(quantities), "none without an accuracy or errors")
+        data = solve_with_errors(setup, tuple(quantities)).data if errors else follow_path(setup)
         warn_of_excess(data)
         return data
-    for name, value in {"points": points, "tolerance": tolerance, "increments": increments}.items():
-        if value is not None:
-            raise InputError(name, value, "left out, for it follows from the accuracy")
-    wanted = Accuracy(accuracy, _names(quantities))
+    wanted = _read_accuracy(
+        accuracy, quantities, points=points, tolerance=tolerance, increments=increments, errors=errors or None
+    )
     controlled = solve_to_error(setup, wanted.error, wanted.quantities)
     if not controlled.met:
         logger.warning("an accuracy of %g is not reached: %s", controlled.wanted, controlled.summary)
@@ -118,36 +122,48 @@ def simulate(
     return controlled.data
 
 
-@check_option_names
+@checked
 def estimate_cost(
     scene: Scene,
     *,
-    points: int | None = None,
-    tolerance: float = 1e-3,
+    points: Count | None = None,
+    tolerance: Positive | None = None,
     accuracy: float | None = None,
     quantities: Sequence[str] = (),
     increments: Increments | None = None,
 ) -> Forecast:
-    """Forecast work, time, memory and error of a simulation before it runs; parameters as in `simulate`.
+    """Forecast work, time and memory of a simulation before it runs; parameters as in `simulate`.
 
     Raises
     ------
     InputError
         For a scene whose costs were not measured.
     """
-    wanted = None if accuracy is None else Accuracy(accuracy, _names(quantities))
-    options = RunOptions(points=points, tolerance=tolerance, accuracy=wanted, increments=increments)
+    wanted = None
+    if accuracy is not None:
+        wanted = _read_accuracy(accuracy, quantities, points=points, tolerance=tolerance, increments=increments)
+    elif quantities:
+        raise InputError("quantities", list(quantities), "none without an accuracy")
+    options = RunOptions(points, 1e-3 if tolerance is None else tolerance, accuracy=wanted, increments=increments)
     return forecast_run(Setup(scene, options))
 
 
-@check_option_names
+def _read_accuracy(accuracy: float, quantities: Sequence[str], **others: object) -> Accuracy:
+    """Return the accuracy that is asked for; InputError where options are given that follow from it."""
+    for name, value in others.items():
+        if value is not None:
+            raise InputError(name, value, "left out, for it follows from the accuracy")
+    return Accuracy(accuracy, tuple(quantities))
+
+
+@checked
 def neglect(
     scene: Scene,
     *,
     within: float,
     quantities: Sequence[str],
-    points: int,
-    tolerance: float = 1e-3,
+    points: Count,
+    tolerance: Positive = 1e-3,
     increments: Increments | None = None,
 ) -> tuple[Scene, Decision]:
     """Return a scene without the effects that hardly change it, and why.
@@ -162,7 +178,7 @@ def neglect(
     within : float
         Relative change that the quantities may have, above 0 and below 1.
     quantities : sequence of str
-        Quantities to compare: names of variables of datasets.
+        Quantities to compare; those usual for the scene where empty.
     points, tolerance, increments
         Grid, tolerance and increments that the scene will be simulated with; see `simulate`.
 
@@ -173,21 +189,17 @@ def neglect(
     """
     if not (is_positive(within) and within < 1):
         raise InputError("within", within, "a relative change, above 0 and below 1")
-    names = _names(quantities)
-    unknown = [name for name in names if name not in RESULTS]
-    if unknown or not names:
-        raise InputError("quantities", unknown or list(names), "names of results, as in variables.RESULTS")
     setup = Setup(scene, RunOptions(points=points, tolerance=tolerance, increments=increments))
-    decision = decide_neglect([setup], within, names)
+    decision = decide_neglect([setup], within, check_quantities(setup, quantities))
     return neglect_effects(setup, decision.neglected).scene, decision
 
 
-@check_option_names
+@checked
 def explain(
     scene: Scene,
     *,
-    points: int | None = None,
-    solver: str | HardWallSolver | CohesiveSolver | None = None,
+    points: Count | None = None,
+    solver: SolverName | HardWallSolver | CohesiveSolver | None = None,
     increments: Increments | None = None,
 ) -> Explanation:
     """Explain which effects of a scene act, which fields exist, what an iteration costs, and which solvers apply.
@@ -205,13 +217,6 @@ def explain(
         Print it, or read its attributes.
     """
     return explain_setup(Setup(scene, RunOptions(points=points, solver=_find_solver(solver), increments=increments)))
-
-
-def _names(quantities: Sequence[str]) -> tuple[str, ...]:
-    """Return names of quantities; a name alone is no list of them."""
-    if isinstance(quantities, str):
-        raise InputError("quantities", quantities, "a list of names")
-    return tuple(quantities)
 
 
 def _find_solver(solver: str | HardWallSolver | CohesiveSolver | None) -> HardWallSolver | CohesiveSolver | None:

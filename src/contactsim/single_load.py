@@ -2,47 +2,60 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, cast
+from typing import Annotated, Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from contactsim.arguments import Only, Positive, Values, checked
 from contactsim.contact.loading import LoadPath, load_step
 from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.base import Elasticity
 from contactsim.elasticity.half_space import FreeHalfSpace, HalfSpace
 from contactsim.elasticity.layer import Layer
-from contactsim.errors import InputError, check_option_names, is_positive
+from contactsim.error_control.estimates import tell_error
+from contactsim.error_control.measured import MIN_POINTS, STRIDES
+from contactsim.errors import InputError, is_positive
+from contactsim.grid import Threads
 from contactsim.interface.hard_wall import HardWall
 from contactsim.solvers.base import HardWallSolver, Result, check_solver, solve
-from contactsim.solvers.registry import default_solver, make_solver
+from contactsim.solvers.registry import SolverName, default_solver, make_solver
 from contactsim.surfaces.pair import add_heights
 from contactsim.surfaces.shapes import Flat
-from contactsim.surfaces.topography import Topography
+from contactsim.surfaces.topography import Measured, Topography
 from contactsim.traits import Trait
 
 MAX_TOLERANCE = 0.1
 """Largest tolerance, in grid steps: with larger gaps in contact and overlaps the contact set means little."""
+Tolerance = Annotated[
+    float,
+    Only(
+        f"a positive number, at most {MAX_TOLERANCE:g} grid steps",
+        lambda value: is_positive(value) and value <= MAX_TOLERANCE,
+    ),
+]
 
 
-@check_option_names
+@checked
 def press(
-    heights: ArrayLike | Topography,
-    other: ArrayLike | Topography | None = None,
+    heights: Values | Measured,
+    other: Values | Measured | None = None,
     *,
-    contact_modulus: float,
+    contact_modulus: Positive,
     mean_pressure: float | None = None,
     approach: float | None = None,
-    spacing: float | tuple[float, float] | None = None,
-    offset: int | tuple[int, int] | None = None,
+    spacing: float | Sequence[float] | None = None,
+    offset: int | Sequence[int] | None = None,
     thickness: float | None = None,
     poisson_ratio: float | None = None,
-    tolerance: float = 1e-3,
-    solver: str | HardWallSolver | None = None,
-    threads: int = 1,
+    tolerance: Tolerance = 1e-3,
+    solver: SolverName | HardWallSolver | None = None,
+    threads: Threads = 1,
     periodic: bool | None = None,
+    errors: bool = False,
 ) -> Result:
     """Press a surface on an elastic half-space or layer, flat or rough too, without adhesion or friction.
 
@@ -86,19 +99,22 @@ def press(
         made periodic. False: they are alone on a half-space, which bears no load elsewhere; the default of any other
         topography. Far away the half-space does not move; on a line, by convention, a line load moves nothing at the
         distance of the length that is pressed.
+    errors : bool
+        True to tell the errors that the spacing leaves: one point in two and in four is pressed too, of 16 or more each
+        way.
 
     Returns
     -------
     Result
         Pressure, gap and contact, each shaped as the heights pressed; relative_contact_area, approach, status, the
-        record with transforms and certificate, and the scene that was pressed.
+        record with transforms and certificate, the scene that was pressed and, where they were asked for, the errors of
+        its numbers by name, each in the unit of the number.
 
     Raises
     ------
     InputError
         For an input that cannot be used.
     """
-    check_tolerance(tolerance)
     elasticity = choose_elasticity(heights, contact_modulus, thickness, poisson_ratio, periodic)
     repeats = Trait.FREE not in elasticity.traits
     topographies = [body for body in (heights, other) if isinstance(body, Topography)]
@@ -108,11 +124,27 @@ def press(
     surface = _read_heights(heights, steps, "heights")
     step = load_step(approach, mean_pressure, "load")
     surface = add_heights(surface, None if other is None else _read_heights(other, steps, "other"), offset, repeats)
-    scene = Scene(Body(Flat.facing(surface), elasticity), Body(surface), (HardWall(),), LoadPath((step,)))
-    method: Any = make_solver(solver) if isinstance(solver, str) else solver
-    method = default_solver(scene) if method is None else method
-    check_solver(method, scene)
-    return replace(solve(method, *pose_hard_wall(scene, step, surface.values, tolerance, threads)), scene=scene)
+    if errors and min(surface.values.shape) < MIN_POINTS:
+        allowed = f"False for fewer than {MIN_POINTS} points each way: of shape {surface.values.shape}"
+        raise InputError("errors", errors, allowed)
+
+    def press_heights(surface: Topography) -> Result:
+        """Press heights, or a part of their points."""
+        scene = Scene(Body(Flat.facing(surface), elasticity), Body(surface), (HardWall(),), LoadPath((step,)))
+        method: Any = make_solver(solver) if isinstance(solver, str) else solver
+        method = default_solver(scene) if method is None else method
+        check_solver(method, scene)
+        return replace(solve(method, *pose_hard_wall(scene, step, surface.values, tolerance, threads)), scene=scene)
+
+    result = press_heights(surface)
+    if not errors:
+        return result
+    divisible = surface.thinned(1)
+    runs = [press_heights(surface.thinned(stride)) for stride in STRIDES]
+    runs.append(result if divisible is surface else press_heights(divisible))
+    ratios = [2.0] * (len(runs) - 1)
+    told = {name: tell_error([run.numbers[name] for run in runs], ratios) for name in result.numbers}
+    return replace(result, errors={name: float(error[0]) for name, error in told.items()})
 
 
 def _read_heights(
@@ -127,14 +159,6 @@ def _read_heights(
         return Topography(np.asarray(heights), cast("tuple[float, ...]", spacing))  # it reads one number as all
     except InputError as error:
         raise error.renamed("heights", name) from error
-    except ValueError as error:
-        raise InputError(name, heights, "two or more real numbers, in 1D, or rows of them, in 2D") from error
-
-
-def check_tolerance(tolerance: float) -> None:
-    """Raise an InputError for a tolerance that is not positive or too large; accuracy studies may use larger ones."""
-    if not (is_positive(tolerance) and tolerance <= MAX_TOLERANCE):
-        raise InputError("tolerance", tolerance, f"a positive number, at most {MAX_TOLERANCE:g} grid steps")
 
 
 def choose_elasticity(
@@ -151,8 +175,6 @@ def choose_elasticity(
     repeats = periodic
     if periodic is None:
         repeats = thickness is not None or not isinstance(heights, Topography) or heights.periodic
-    if not isinstance(repeats, bool | np.bool_):
-        raise InputError("periodic", periodic, "True or False")
     if thickness is not None:
         if not repeats:
             raise InputError("periodic", periodic, "True for a layer: its response without images is not known")

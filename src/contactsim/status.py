@@ -26,6 +26,13 @@ class Status(Enum):
     SKIPPED = (4, "skipped: the path ended at an earlier step")
     INTERPOLATED = (5, "interpolated: between two solutions, to the error allowed for increments")
     NO_REST = (6, "no rest: under a held load the surfaces move on and on, as friction without a potential allows")
+    INEXACT = (7, "not exact: the residual, recomputed from scratch, is larger than the tolerance")
+    OVER_BUDGET = (8, "over budget: the state takes more transforms than granted; earlier states are kept")
+    UNLOCATED = (
+        9,
+        "not located: an equilibrium, but no work was left to locate the jumps on the way; "
+        "shorter increments may lead elsewhere",
+    )
 
     @property
     def sentence(self) -> str:
@@ -35,7 +42,7 @@ class Status(Enum):
     @property
     def solved(self) -> bool:
         """True where there is a solution, or one interpolated between solutions."""
-        return self in (Status.CONVERGED, Status.INTERPOLATED)
+        return self in (Status.CONVERGED, Status.INTERPOLATED, Status.UNLOCATED)
 
     @property
     def summary(self) -> str:

@@ -48,7 +48,7 @@ ERRORS = {
     "approach": "jackknife error over the approaches that are fitted together",
     "tolerance": "change of the mean on solving more tightly",
     "neglect": "change on neglecting nothing",
-    "estimated": "error as estimated from a coarser run before",
+    "estimated": "error as estimated from coarser runs",
 }
 """Kinds of error beside the standard one, and what each is: of a quantity NAME that of a kind is NAME_KIND_error."""
 GRID_ERROR, GRID_CHANGE = "_grid_error", "_grid_change"

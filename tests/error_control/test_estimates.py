@@ -2,18 +2,82 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
+import itertools
 
 import numpy as np
 import pytest
 
 from contactsim import HalfSpace, HardWall, Scene, Sphere, pressures
-from contactsim.error_control import estimates, neglect
-from contactsim.error_control.control import Controlled
-from contactsim.error_control.estimates import DIFFERENCE_WEIGHT, estimate_errors
-from contactsim.error_control.scaling import features
+from contactsim.error_control import neglect
+from contactsim.error_control.estimates import FACTORS, ORDERS, tell_error, told_changes
+from contactsim.error_control.ladder import Controlled
 from contactsim.paths.options import RunOptions, Setup
-from contactsim.reference import hard_wall
+
+GRIDS = [(16, 45, 64), (8, 23, 64, 91)]
+
+
+def ratios(grids):
+    return [fine / coarse for coarse, fine in itertools.pairwise(grids)]
+
+
+@pytest.mark.parametrize("order", [0.5, 1.0, 1.3, 1.5])
+@pytest.mark.parametrize("grids", GRIDS)
+def test_errors_that_fall_with_a_power_are_told_exactly_but_for_the_factor(grids, order):
+    values = [np.array([1.0 + 3.0 * points**-order]) for points in grids]
+    assert tell_error(values, ratios(grids)) == pytest.approx(
+        FACTORS[len(grids) - 1] * 3.0 * grids[-1] ** -order, rel=2e-3
+    )
+
+
+def test_all_changes_of_the_highest_order_say_the_same():
+    for grids in GRIDS:
+        values = [np.array([1.0 + 3.0 * points ** -ORDERS[-1]]) for points in grids]
+        assert np.ravel(told_changes(values, ratios(grids))) == pytest.approx(3.0 * grids[-1] ** -ORDERS[-1])
+
+
+def test_one_change_tells_nothing_and_fewer_say_less():
+    assert FACTORS[2] > FACTORS[3] >= 1
+    assert np.isinf(tell_error([np.array([1.0]), np.array([1.0])], (2.0,)))
+
+
+@pytest.mark.parametrize("order", [0.5, 0.7, 1.0, 2.0, 3.0])
+def test_errors_of_other_orders_are_covered(order):
+    grids = (16, 45, 128, 181)
+    values = [np.array([1.0 + points**-order]) for points in grids]
+    assert tell_error(values, ratios(grids)) >= 0.99 * grids[-1] ** -order
+
+
+def test_a_last_change_that_is_small_by_chance_does_not_hide_the_one_before():
+    values = [np.array([value]) for value in (1.1, 1.0, 1.0)]
+    assert tell_error(values, (2.0, 2.0)) == pytest.approx(FACTORS[2] * 0.1 / (2**1.5 - 1) / 2**1.5)
+
+
+def test_changes_that_do_not_fall_have_the_lowest_order():
+    values = [np.array([value]) for value in (1.0, 1.1, 1.0, 1.1)]
+    assert tell_error(values, (2.0, 2.0, 2.0)) == pytest.approx(FACTORS[3] * 0.1 / (2**0.5 - 1))
+
+
+@pytest.mark.parametrize("missing", [np.nan, np.inf])
+@pytest.mark.parametrize("lost", [0, 1, 2, 3])
+def test_a_run_without_the_quantity_or_a_solution_leaves_the_error_unknown_or_to_later_changes(missing, lost):
+    values = [np.array([1.0 + 0.1 / 2**place]) for place in range(4)]
+    values[lost] = np.array([missing])
+    error = tell_error(values, (2.0,) * 3)
+    if lost >= 1:
+        assert np.isinf(error)
+    else:
+        assert error == pytest.approx(tell_error(values[lost + 1 :], (2.0,) * (2 - lost)))
+
+
+def test_what_both_lack_has_no_error_and_what_neither_solved_has():
+    assert tell_error([np.array([np.nan])] * 3, (2.0, 2.0)) == 0
+    assert np.isinf(tell_error([np.array([np.inf])] * 3, (2.0, 2.0)))
+
+
+def test_loads_have_errors_of_their_own():
+    errors = tell_error([np.array([1.0, 2.0]), np.array([1.1, 2.0]), np.array([1.0, 2.0])], (2.0, 2.0))
+    assert errors[0] > 0
+    assert errors[1] == 0
 
 
 @pytest.mark.parametrize(
@@ -22,40 +86,7 @@ from contactsim.reference import hard_wall
 )
 def test_an_error_is_met_where_every_load_of_every_quantity_meets_it(loads, met):
     errors = {"relative_contact_area": np.full(2, 1e-3), "mean_gap": np.array(loads)}
-    assert Controlled(None, [], errors, wanted=0.01, companion=None).met is met
-
-
-def run(value, expected):
-    """A solution that stands for its value and for the error that is expected of it."""
-    return SimpleNamespace(setup=expected, values={"mean_gap": np.array([value])}, solved=True, increment_errors={})
-
-
-def test_a_difference_of_second_order_gives_the_error_of_the_finer_run(monkeypatch):
-    monkeypatch.setattr(estimates, "expect_error", lambda setup, family, name, knobs: setup)
-    fine, coarse = run(1.003, 1e-4), run(1.012, 4e-4)  # of 1, with twice the spacing
-    (error,) = estimate_errors(fine, [coarse], SimpleNamespace(resolved={}), ["mean_gap"])["mean_gap"]
-    assert error == pytest.approx(DIFFERENCE_WEIGHT * 0.003 / 1.003)
-    (expected,) = estimate_errors(run(1.0, 1e-4), [run(1.0, 4e-4)], SimpleNamespace(resolved={}), ["mean_gap"])[
-        "mean_gap"
-    ]
-    assert expected == 1e-4  # a difference may vanish by chance
-
-
-def test_of_a_slide_all_coarser_runs_count_and_the_error_that_its_states_tell_is_added(monkeypatch):
-    monkeypatch.setattr(estimates, "expect_error", lambda setup, family, name, knobs: setup)
-    fine, coarsest, coarse = run(1.0, 1e-4), run(1.14, 1e-2), run(1.0, 1e-3)  # the last two agree by chance
-    fine.points, coarsest.points, coarse.points = 64, 16, 32
-    without = run(np.nan, 1e-1)
-    fine.increment_errors["mean_gap"] = np.array([0.003])
-    errors = estimate_errors(fine, [without, coarsest, coarse], SimpleNamespace(resolved={}), ["mean_gap"])
-    assert errors["mean_gap"] == pytest.approx(0.14 / (4**1.5 - 1) + 0.003)
-
-
-def test_the_expected_area_of_a_sphere_is_that_of_hertz():
-    contact_radius, radius, length = 20.0, 1000.0, 400.0
-    load = hard_wall.sphere_load(contact_radius, radius, 3.0) / length**2
-    (numbers,) = features(Scene(HalfSpace(3.0), Sphere(length, radius), HardWall(), pressures([load])))
-    assert np.exp(numbers["area"]) == pytest.approx(np.pi * contact_radius**2 / length**2, rel=1e-12)
+    assert Controlled(None, [], errors, wanted=0.01).met is met
 
 
 def test_the_worst_member_of_a_sample_decides_what_is_neglected(monkeypatch):

@@ -50,10 +50,13 @@ class Stuck:
     """A solver that believes that uniform pressure times a factor is the answer."""
 
     accepts = make_solver("active_set").accepts
-    budget = 3
+    budget, fields = 3, 1.0
 
     def __init__(self, factor):
         self.factor = factor
+
+    def transforms(self, points):
+        return 2.0
 
     def start(self, problem, guess=None):
         return State(np.ones_like(problem.heights), False)

@@ -9,6 +9,7 @@ import yaml
 
 from contactsim.errors import InputError
 from contactsim.evaluation.work_precision import case_config, cases, error_cost
+from contactsim.paths.continuation import STATE_BUDGET
 from contactsim.paths.jumps import FOLD_WIDTH
 from contactsim.simulation import simulate
 from contactsim.solvers import registry as solver_registry
@@ -202,7 +203,7 @@ def test_each_knob_of_a_path_is_turned_on_its_own_and_has_its_own_reference(tmp_
 def test_a_path_is_solved_at_every_increment_asked_for_whatever_the_study_does(tmp_path):
     one = case(tmp_path, PATH_CASE)
     settings = one.job_settings("newton")["runs"][0]
-    assert settings["increments"] == {"kind": "requested", "fold_width": FOLD_WIDTH}
+    assert settings["increments"] == {"kind": "requested", "fold_width": FOLD_WIDTH, "budget": STATE_BUDGET}
     assert settings["snapshots"] is None
     assert settings["load"] == {"name": "step", "control": "approach", "through": [-8.0, -4.0, -9.0], "increment": 0.5}
     assert one.job_settings("newton")["settings"]["load"] is None

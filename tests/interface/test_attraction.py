@@ -67,7 +67,7 @@ def test_a_ramp_that_is_none_or_wider_than_the_length_is_refused(ramp):
 
 
 def test_the_push_of_a_wall_is_the_derivative_of_its_energy_and_never_a_pull():
-    wall = WallPressure(np.full(801, 0.3), 2.0)
+    wall = WallPressure(np.full(801, 0.3), 2.0, 2.0)
     gap, step = np.linspace(-1.0, 1.0, 801), 1e-6
     slope = (wall.energy(gap + step) - wall.energy(gap - step)) / (2 * step)
     assert -slope == pytest.approx(wall.push(gap), abs=1e-6)  # the push has a kink
@@ -75,7 +75,7 @@ def test_the_push_of_a_wall_is_the_derivative_of_its_energy_and_never_a_pull():
 
 
 def test_a_correction_leaves_the_pressure_of_points_whose_gap_is_zero():
-    wall = WallPressure(np.array([0.0, 0.5, 0.5, 0.5]), 2.0)
+    wall = WallPressure(np.array([0.0, 0.5, 0.5, 0.5]), 2.0, 2.0)
     gap = np.array([0.0, 0.0, 0.1, -0.1])
     assert wall.corrected(gap).values == pytest.approx([0.0, 0.5, 0.3, 0.7])
     assert wall.corrected(gap, 4.0).stiffness == 8.0

@@ -42,8 +42,8 @@ def test_pull_off_is_found_on_each_leg_with_what_the_increments_leave_open():
     found = pull_off(curve(APPROACH, LOAD))
     assert (found["pull_off_load_loading"], found["pull_off_approach_loading"]) == (5.0, -2.0)
     assert (found["pull_off_load_unloading"], found["pull_off_approach_unloading"]) == (6.0, -2.0)
-    assert found["pull_off_load_loading_increment_error"] == pytest.approx(0.5)  # the nearer state, not 4.9 away
-    assert found["pull_off_load_unloading_increment_error"] == pytest.approx(1.5)
+    assert found["pull_off_load_loading_increment_error"] == pytest.approx(1.35)  # a quarter of 0.5 + 4.9
+    assert found["pull_off_load_unloading_increment_error"] == pytest.approx(1.85)
     assert found["pull_off_approach_loading_increment_error"] == 1.0
 
 

@@ -190,7 +190,7 @@ def test_a_cycle_of_a_surface_has_an_energy_over_its_area():
 
 def test_a_jump_that_is_located_leaves_half_its_width_and_its_place_open():
     data = path([0.0, -1.0, 2.0, 3.0, 1.0, -2.0, 0.0], [0.0] * 6 + [0.5])
-    fold = dict(zip(FOLD, (6.0, -0.5, -0.6, -2.5, -0.1), strict=True))
+    fold = dict(zip(FOLD, (6.0, -0.5, -0.5, -0.6, -0.6, -2.5, -2.5, -0.1, -0.1), strict=True))
     found = summarise_cycles(data.drop_dims("fold").merge(join_folds([fold])))
     # up -1 + 1 + 5, down 4 - 1 to the state before the jump, and pulls of 1.125, 0.13 across the jump, and 0.07
     assert float(found.dissipated_energy) == pytest.approx(5.0 - 3.0 + 1.125 + 0.13 + 0.07)

@@ -19,9 +19,14 @@ LOAD = np.array([-0.1, -0.2, -5.0, -4.0, 2.0])
 JUMP = np.array([0.0, 0.0, 3.0, 0.0, 0.0])
 
 
-def folds(*rows):
-    """Columns of jumps, each a step, two approaches and two loads."""
-    data = join_folds([dict(zip(FOLD, row, strict=True)) for row in rows])
+def folds(*rows, peak=None, then=None):
+    """Columns of jumps, each a step, two approaches and two loads; peak, then: largest pulls, else the sides."""
+    numbers = []
+    for step, before, after, load_before, load_after in rows:
+        (top, load_top), (end, load_end) = peak or (before, load_before), then or (after, load_after)
+        values = (step, top, before, after, end, load_top, load_before, load_after, load_end)
+        numbers.append(dict(zip(FOLD, values, strict=True)))
+    data = join_folds(numbers)
     return [data[name].values for name in FOLD]
 
 
@@ -31,6 +36,19 @@ def test_both_sides_of_a_jump_lie_between_the_states_beside_it():
     assert curve.load.tolist() == [-0.1, -0.2, -0.3, -5.3, -5.0, -4.0, 2.0]
     assert curve.width == pytest.approx([0.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.0])
     assert np.flatnonzero(~curve.is_state).tolist() == [2, 3]
+
+
+def test_the_largest_pulls_beside_a_jump_lie_between_the_states_and_the_jump():
+    jump = (4, -0.5, -0.4, -1.0, 1.5)
+    curve = LoadCurve.from_states(APPROACH, LOAD, JUMP[::-1], folds(jump, peak=(-0.8, -6.0)))
+    assert curve.approach.tolist() == [-4.0, -3.0, -2.0, -1.0, -0.8, -0.5, -0.4, 0.0]
+    assert curve.load[4] == -6.0
+    assert not curve.is_state[4]
+    assert pull_off(curve)["pull_off_approach_loading"] == -0.8
+    later = LoadCurve.from_states(APPROACH, LOAD, JUMP[::-1], folds(jump, then=(-0.3, -5.5)))
+    assert (later.approach[6], later.load[6]) == (-0.3, -5.5)
+    begun = LoadCurve.from_states(APPROACH, LOAD, JUMP[::-1], folds(jump, peak=(-1.0, -4.0)))
+    assert begun.approach.size == 7  # the step began with it
 
 
 def test_a_side_of_a_jump_that_is_a_state_is_no_second_place():
@@ -83,6 +101,18 @@ def test_the_neighbours_of_a_smooth_extreme_are_states_not_sides_of_a_jump():
     found = pull_off(LoadCurve.from_states(APPROACH, LOAD, JUMP, folded))
     assert found["pull_off_load_loading"] == 5.0
     assert found["pull_off_load_loading_increment_error"] == pytest.approx(1.0)  # not the 0.01 of the side
+
+
+@pytest.mark.parametrize("shift", [-0.49, -0.2, 0.0, 0.3, 0.49])
+def test_the_error_of_a_smooth_extreme_covers_a_curve_that_bends_more_on_one_side(shift):
+    def load(approach):
+        return approach**2 - 0.2 * approach**3 - 5.0
+
+    approach = np.arange(-3.0, 3.0) + shift
+    found = pull_off(LoadCurve.from_states(approach, load(approach), np.zeros(6)))
+    pull, error = (found[f"pull_off_load_loading{end}"] for end in ("", "_increment_error"))
+    assert 0 <= 5.0 - pull <= error <= 1.0
+    assert abs(found["pull_off_approach_loading"]) <= found["pull_off_approach_loading_increment_error"]
 
 
 INTO = along(-6.4, -5.2, 0.2) >> along(-5.0, 0.0, 1.0)

@@ -87,7 +87,7 @@ def test_a_thick_layer_is_a_half_space_on_a_uniform_spring(thickness):
 
 
 def test_a_punch_that_does_not_converge_has_no_stiffness():
-    assert np.isnan(cs.contact_stiffness(press(rough(64), 0.05), tolerance=1e-300))
+    assert np.isnan(cs.contact_stiffness(press(rough(64), 0.05), tolerance=1e-99))
 
 
 def test_units_and_two_bodies_change_nothing_else():
@@ -108,7 +108,7 @@ def test_a_circular_contact_conducts_as_holm_has_it():
 
 
 def test_what_has_no_stiffness_is_refused():
-    with refused("result", "converged result"):
+    with refused("result", "a Result: press"):
         cs.contact_stiffness(rough(64))
     unsolved = press(rough(1024), 0.05, solver=cs_solver())
     with refused("result", "converged result"):

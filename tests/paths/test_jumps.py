@@ -13,8 +13,10 @@ from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.layer import Layer
 from contactsim.interface.cohesive_zone import CohesiveZone, NormalCohesiveZone
 from contactsim.interface.lattice import Lattice
+from contactsim.observables.path_summary import summarise_load_curves
 from contactsim.paths.adaptive import Adaptive
 from contactsim.paths.continuation import Continuation
+from contactsim.simulation import simulate
 from contactsim.surfaces.self_affine import SelfAffine
 from contactsim.surfaces.shapes import Cylinder, Flat, Sinusoid, Sphere
 from contactsim.surfaces.topography import Topography
@@ -90,6 +92,22 @@ def test_long_steps_among_many_contacts_are_halved_and_not_divided_further(accep
     short = walk(replace(scene, path=along(-5.0, 1.0, 0.75)), 1024, tolerance=1e-4)
     assert long.load == pytest.approx(short.load[::2], rel=1e-3)
     assert long.transforms < 3 * short.transforms
+
+
+@pytest.mark.parametrize("seed", [2, 7])
+@pytest.mark.parametrize("increment", [0.5, 0.25])
+def test_the_pull_off_of_a_rough_line_is_that_of_small_steps_within_its_error(seed, increment):
+    surface = SelfAffine(5120.0, 0.5, 640.0, 40.0, rms_height=4.5, seed=seed)
+    touch = -float(surface.heights(1024).max())
+    found = []
+    for step in (increment, increment / 16):
+        path = approaches([touch - 6.0, touch + 5.5, touch - 20.0], step)
+        scene = Scene(HalfSpace(87.8), surface, NormalCohesiveZone(7.7), path)
+        found.append(summarise_load_curves(simulate(scene, points=1024, tolerance=1e-4)))
+    for leg in ("loading", "unloading"):
+        coarse, fine = (float(data[f"pull_off_load_{leg}"]) for data in found)
+        error = float(found[0][f"pull_off_load_{leg}_increment_error"])
+        assert abs(coarse - fine) <= error < 0.06 * fine
 
 
 def test_a_step_releases_energy_where_it_passes_a_jump_alone():

@@ -37,6 +37,12 @@ class Heights:
         self.given, self.points, self.modes = heights, heights.shape[1], None
         self.lengths = tuple(np.multiply(heights.shape, spacing))
 
+    def shape(self, points):
+        return self.given.shape
+
+    def check(self, points):
+        assert points == self.points
+
     def heights(self, points):
         return self.given
 

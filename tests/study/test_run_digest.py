@@ -11,7 +11,7 @@ from types import FrameType
 import pytest
 import yaml
 
-from contactsim.code_digest.modules import modules_used
+from contactsim.code_digest import modules_used
 from contactsim.solvers.registry import solver_module
 from contactsim.study.execute import RunFiles, run
 from contactsim.study.plan import Plan
@@ -118,7 +118,12 @@ def test_a_run_executes_nothing_that_its_digest_does_not_cover(runs: dict[str, R
 
 def test_the_digest_covers_no_other_kind(runs: dict[str, Run]) -> None:
     modules = {name: {module.removeprefix("contactsim.") for module in covered(run)} for name, run in runs.items()}
-    readers = {"surfaces.scan_files", "surfaces.instrument", "surfaces.text_layouts", "surfaces.netcdf"}
+    readers = {
+        "surfaces.scan_files",
+        "topography_files.instrument",
+        "topography_files.text_layouts",
+        "topography_files.netcdf",
+    }
     assert not (modules["line"] | modules["area"]) & readers  # computed surfaces read no files
     assert not modules["line"] & {"interface.cohesive_zone", "contact.cohesive", "elasticity.layer", "paths.record"}
     assert not modules["area"] & {"solvers.hard_wall.active_set", "solvers.cohesive.newton_krylov"}

@@ -56,7 +56,7 @@ def test_bodies_that_do_not_fit_are_refused():
         ("other", "that of heights, (16,)", area, {}),
         ("other", "that of heights, (16,)", line[:8], {}),
         ("other", "none missing", np.ma.masked_equal(line, 0), {}),
-        ("offset", "whole points along x", line, {"offset": 0.5}),
+        ("offset", "whole number", line, {"offset": 0.5}),
         ("offset", "whole points along x", line, {"offset": (1, 1)}),
         ("offset", "without the heights of another body", None, {"offset": 1}),
         ("offset", "two points or more", line, {"offset": 15, "periodic": False}),

@@ -8,6 +8,7 @@ import pytest
 import contactsim as cs
 from contactsim.contact.pose_cohesive import pose_cohesive
 from contactsim.elasticity.free_response import rectangle_response
+from contactsim.observables.path_summary import summarise_load_curves
 from contactsim.observables.surface_adhesion import negative_area
 from contactsim.reference import adhesive_sphere
 from support.cases import orders, refused
@@ -82,6 +83,17 @@ def test_from_dmt_to_jkr_the_pull_off_is_near_that_of_maugis(size, length):
     maugis = adhesive_sphere.maugis_pull_off(WORK, RADIUS, MODULUS, strength(size))
     assert 0 < found.argmin() < found.size - 1
     assert maugis < -found.min() < 1.05 * maugis
+
+
+@pytest.mark.parametrize("begin", [-2.0, -3.2])
+def test_the_pull_off_of_a_soft_sphere_is_near_that_of_jkr_within_the_error_of_its_steps(begin):
+    """The largest pull comes long before the jump; Maugis's parameter is 3, and the law's tail pulls 2.5 % more."""
+    ends = np.arange(begin, -13.0, -3.0).tolist()
+    found = summarise_load_curves(pulled(3.0, 48, ends))
+    jkr = 1.025 * adhesive_sphere.jkr_pull_off(WORK, RADIUS)
+    error = float(found.pull_off_force_unloading_increment_error)
+    assert float(found.pull_off_force_unloading) == pytest.approx(jkr, abs=error)
+    assert error < 0.05 * jkr
 
 
 def test_neighbours_a_period_away_pull_more():

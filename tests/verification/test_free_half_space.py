@@ -270,7 +270,7 @@ def test_accuracy_is_kept_on_a_free_half_space_and_its_cost_foreseen():
     work = data.transforms.sum().item() + data.coarse_run_transforms.item()
     assert 0.3 < work / forecast.transforms < 3
     half, whole = (forecast_of(body) for body in (cs.HalfSpace(1.0), FreeHalfSpace(1.0)))
-    assert whole == pytest.approx(3 * half)
+    assert whole == pytest.approx(3 * half, rel=0.01)
 
 
 def forecast_of(body):

@@ -190,7 +190,7 @@ def test_scenes_of_walls_and_laws_that_are_not_solved_are_refused():
     with refused("effects", "one hard wall"):
         cs.Scene(body, ROUGH, (WALL, WALL, attraction), LOOP)
     for effects in ([WALL, "adhesion"], (WALL, cs.ExponentialAttraction), (cs.HardWall, attraction), 3.0):
-        with refused("effects", "such as HardWall()"):
+        with refused("effects", "Effect: HardWall()"):
             cs.Scene(body, ROUGH, effects, LOOP)
     with refused("hardness", "left out"):
         cs.Scene(body, ROUGH, (cs.HardWall(hardness=2.0), attraction), LOOP)

@@ -25,9 +25,8 @@ def test_no_slide_is_answered_wrongly(hazard, severity):
     for name, options in SOLVERS.items():
         verdict = judge(case, make_solver(name, **options))
         if verdict.outcome is Outcome.FAILED:
-            assert name == "mass_weighted_verlet"
             assert hazard.__name__ in {"pulled_off_slide", "pressed_through_slide"}
-            assert "number of iterations" in verdict.reason
+            assert ("over budget" if name == "newton" else "number of iterations") in verdict.reason
         else:
             known = case.exact is not None or case.ends is Status.NO_EQUILIBRIUM
             assert verdict.outcome is (Outcome.EXACT if known else Outcome.CERTIFIED), verdict.reason

@@ -10,13 +10,13 @@ from pathlib import Path
 import pytest
 import yaml
 
-from contactsim.code_digest import modules
+from contactsim import code_digest
 from contactsim.provenance import canonical
 from contactsim.study import stages
 from contactsim.study.execute import point_digests
 from contactsim.study.plan import Plan
 
-SOURCE = Path(modules.__file__).parent.parent
+SOURCE = Path(code_digest.__file__).parent
 CYLINDER = {"kind": "cylinder", "radius": 10.0, "length": 40.0}
 WALL = {
     "title": "Cylinder",
@@ -107,15 +107,20 @@ class Workshop:
 
 
 def forget() -> None:
-    of_modules = (modules.source_of, modules.imports_of, modules.executed_imports, modules.source_digest)
-    for cached in (*of_modules, stages.stage_digest, stages.computing_stage_digest, stages.run_digest):
+    for cached in (
+        code_digest.read_source,
+        code_digest.source_digest,
+        stages.stage_digest,
+        stages.computing_stage_digest,
+        stages.run_digest,
+    ):
         cached.cache_clear()
 
 
 @pytest.fixture
 def workshop(tmp_path, monkeypatch):
     workshop = Workshop(tmp_path)
-    monkeypatch.setattr(modules, "package_root", lambda: workshop.package)
+    monkeypatch.setattr(code_digest, "package_root", lambda: workshop.package)
     yield workshop
     forget()
 
@@ -142,27 +147,6 @@ def laid_out_anew(text: str) -> str:
     return ast.unparse(ast.parse(text))
 
 
-def with_renamed_locals(text: str) -> str:
-    """Rename the variables that functions assign, where they are not parameters too."""
-    tree = ast.parse(text)
-    for function in [node for node in tree.body if isinstance(node, ast.FunctionDef)]:
-        nodes = list(ast.walk(function))
-        parameters = {node.arg for node in nodes if isinstance(node, ast.arg)}
-        names = [node for node in nodes if isinstance(node, ast.Name)]
-        local = {node.id for node in names if isinstance(node.ctx, ast.Store)} - parameters
-        for node in names:
-            node.id = f"{node.id}_renamed" if node.id in local else node.id
-    return ast.unparse(tree)
-
-
-def without_annotations(text: str) -> str:
-    tree = ast.parse(text)
-    for node in ast.walk(tree):
-        if isinstance(node, ast.FunctionDef):
-            node.returns = None
-    return ast.unparse(tree)
-
-
 def computing_more(text: str) -> str:
     return text + "\nEDITED = 1\n"
 
@@ -177,9 +161,7 @@ MODULES = [
 ]
 
 
-@pytest.mark.parametrize(
-    "how", [with_a_comment, with_other_docstrings, laid_out_anew, with_renamed_locals, without_annotations]
-)
+@pytest.mark.parametrize("how", [with_a_comment, with_other_docstrings, laid_out_anew])
 def test_an_edit_of_words_alone_runs_nothing(workshop, how):
     before = workshop.jobs()
     for module in MODULES:
@@ -214,7 +196,7 @@ def test_an_edit_of_words_alone_runs_nothing(workshop, how):
         ("paths/pressures", everything_after("wall", "keer")),
         ("paths/continuation", everything_after("sticky")),
         ("paths/nested", set()),
-        ("error_control/control", set()),
+        ("error_control/ladder", set()),
         ("analysis/aggregate", AGGREGATED | FIGURES),
         ("analysis/costs", AGGREGATED | FIGURES),
         ("analysis/claims", set()),

@@ -16,7 +16,7 @@ from products import Products
 from snakemake.iocontainers import Wildcards
 
 import snakemake_logger_plugin_progress
-from contactsim.evaluation.calibration import measurement, validation
+from contactsim.evaluation.calibration import settings as calibration
 from contactsim.evaluation.effects import effect_cost
 from contactsim.evaluation.effects import survey as effect_survey
 from contactsim.evaluation.robustness import survey as hazard_survey
@@ -190,11 +190,6 @@ class EvaluationJobs:
         scenes = _present(self.products.prices).scenes
         return [self.products.results / folder / f"{scene}.{ending}" for scene in scenes]
 
-    def compared_cases(self) -> list[Path]:
-        """Return the tables at equal error of the cases that priced scenes name."""
-        cases = prices.prices_figure_job(_present(self.products.prices), self.products.plan.tier)["cases"]
-        return [self.products.results / f"figures/accuracy_{case}_at_equal_error.csv" for case in cases.values()]
-
     def prices_figure_params(self, wildcards: Wildcards) -> str:
         """Return what the figure of the prices of accuracy depends on."""
         return canonical(prices.prices_figure_job(_present(self.products.prices), self.products.plan.tier))
@@ -231,20 +226,29 @@ class EvaluationJobs:
 
     def trial_params(self, wildcards: Wildcards) -> str:
         """Return what one trial depends on."""
-        return canonical(validation.trial_job(_present(self.products.trials), wildcards.kind, int(wildcards.number)))
+        trials = _present(self.products.trials)
+        return canonical(calibration.trial_job(trials, trials.trial, "trial", wildcards.kind, int(wildcards.number)))
 
     def trial_files(self, folder: str, ending: str) -> list[Path]:
         """Return the files of all trials, in a folder and with an ending."""
-        names = validation.trial_names(_present(self.products.trials))
-        return [self.products.results / folder / f"{name}.{ending}" for name in names]
+        trials = _present(self.products.trials)
+        return [self.products.results / folder / f"{name}.{ending}" for name in trials.names(trials.trial)]
 
     def trials_figure_params(self, wildcards: Wildcards) -> str:
         """Return what the figure of all trials depends on."""
-        return canonical(validation.trials_figure_job(_present(self.products.trials), self.products.plan.tier))
+        return canonical(calibration.trials_figure_job(_present(self.products.trials), self.products.plan.tier))
 
     def scaling_params(self, wildcards: Wildcards) -> str:
-        """Return what the measurement of the scaling of a kind of scene depends on."""
-        return canonical(measurement.scaling_job(_present(self.products.trials), wildcards.kind))
+        """Return what the measurement of one scene for the fit depends on."""
+        trials, kind = _present(self.products.trials), wildcards.kind
+        return canonical(
+            calibration.trial_job(trials, trials.calibration, "measure_scaling", kind, int(wildcards.number))
+        )
+
+    def scaling_files(self, wildcards: Wildcards) -> list[Path]:
+        """Return the measurements of all scenes for the fit."""
+        trials = _present(self.products.trials)
+        return [self.products.results / f"costs/relations/{name}.csv" for name in trials.names(trials.calibration)]
 
     def map_params(self, wildcards: Wildcards) -> str:
         """Return what one map of neglected effects depends on."""

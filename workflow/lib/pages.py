@@ -10,8 +10,8 @@ from pathlib import Path
 from products import Products
 from snakemake.iocontainers import Wildcards
 
-from contactsim.code_digest.modules import source_digest
-from contactsim.evaluation.calibration import validation
+from contactsim.code_digest import source_digest
+from contactsim.evaluation.calibration.settings import trials_figure_job
 from contactsim.evaluation.effects import effect_cost
 from contactsim.evaluation.robustness import survey
 from contactsim.provenance import canonical, digest
@@ -137,5 +137,5 @@ class Pages:
         if products.effects:
             data["effects"] = effect_cost.effects_job(products.effects)
         if products.trials:
-            data["trials"] = validation.trials_figure_job(products.trials, plan.tier)
+            data["trials"] = trials_figure_job(products.trials, plan.tier)
         return data

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from contactsim.errors import InputError
-from contactsim.evaluation.calibration import sampling
+from contactsim.evaluation.calibration import settings as calibration
 from contactsim.evaluation.effects import effect_cost, map_settings
 from contactsim.evaluation.figure_settings import FigureSettings
 from contactsim.evaluation.identification import settings as identification_settings
@@ -54,7 +54,7 @@ class Products:
     hazards: survey.Robustness | None
     effects: effect_cost.EffectCosts | None
     prices: Prices | None
-    trials: sampling.Trials | None
+    trials: calibration.Trials | None
     maps: map_settings.EffectMaps | None
     overview: FigureSettings | None
     identification: identification_settings.Identification | None
@@ -89,8 +89,8 @@ class Products:
             cases,
             hazards=survey.read_robustness(config, plan),
             effects=effect_cost.read_variants(config, plan.seed, plan.overrides["effects"], plan.tier),
-            prices=read_prices(config, plan, cases),
-            trials=sampling.read_trials(config, plan.overrides["trials"], plan.tier),
+            prices=read_prices(config, plan),
+            trials=calibration.read_trials(config, plan.overrides["trials"], plan.tier),
             maps=map_settings.read_maps(config, plan.overrides["effect_maps"], plan.tier),
             overview=case_config.read_overview(config) if cases else None,
             identification=identification_settings.read_identification(config, plan),

@@ -28,8 +28,8 @@ if PRODUCTS.maps:
 
     rule export_effect_maps:
         input: EVALUATION_JOBS.full_tier, maps=EVALUATION_JOBS.map_files()
-        output: RESULTS / "effect_maps/effect_maps.yaml"
+        output: RESULTS / "effect_maps/effect_maps.json"
         log: RESULTS / "logs/effect_maps/freeze.log"
         params: plan=EVALUATION_JOBS.maps_params, source=code_digest("measure_effect_map")
-        message: "effect maps, to replace src/contactsim/error_control/effect_maps.yaml: {output}"
+        message: "effect maps, to replace src/contactsim/error_control/effect_maps.json: {output}"
         script: "../scripts/export_effect_maps.py"

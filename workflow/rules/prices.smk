@@ -18,7 +18,6 @@ if PRODUCTS.prices:
         input:
             data=EVALUATION_JOBS.price_files("prices", "nc"),
             costs=EVALUATION_JOBS.price_files("costs/prices", "json"),
-            equal=EVALUATION_JOBS.compared_cases(),
         output:
             png=RESULTS / "figures/price_of_accuracy.png",
             pdf=RESULTS / "figures/price_of_accuracy.pdf",

@@ -1,4 +1,4 @@
-# Error-controlled runs on random scenes: one timed job for each scene, alone on the machine, and a figure; and the fit of the scaling relations.
+# Error-controlled runs on random scenes: one timed job for each scene, alone on the machine, and a figure; and the fit of coverage factors and relations.
 if PRODUCTS.trials:
 
     rule solve_trial:
@@ -32,20 +32,20 @@ if PRODUCTS.trials:
 
 
     rule measure_scaling:
-        output: RESULTS / "costs/relations/{kind}.csv",
-        wildcard_constraints: kind="|".join(PRODUCTS.trials.kinds)
-        log: RESULTS / "logs/relations/{kind}.log"
+        output: RESULTS / "costs/relations/{kind}_{number}.csv",
+        wildcard_constraints: kind="|".join(PRODUCTS.trials.kinds), number=r"\d+"
+        log: RESULTS / "logs/relations/{kind}_{number}.log"
         params: plan=EVALUATION_JOBS.scaling_params
         threads: timed_threads(PLAN, workflow.cores)
         group: group_on_cluster(workflow, "timed")
-        message: "scaling of {wildcards.kind}: scenes solved with several values of each setting"
+        message: "scaling: {wildcards.kind} {wildcards.number}, solved on several grids and increments"
         script: "../scripts/measure_scaling.py"
 
 
     rule fit_scaling:
-        input: EVALUATION_JOBS.full_tier, tables=[RESULTS / f"costs/relations/{kind}.csv" for kind in PRODUCTS.trials.kinds]
-        output: RESULTS / "costs/relations.yaml"
+        input: EVALUATION_JOBS.full_tier, tables=EVALUATION_JOBS.scaling_files
+        output: RESULTS / "costs/relations.json"
         log: RESULTS / "logs/relations.log"
         params: source=code_digest("fit_scaling")
-        message: "scaling relations, to replace src/contactsim/error_control/scaling.yaml: {output}"
+        message: "coverage factors and relations, to replace src/contactsim/error_control/scaling.json: {output}"
         script: "../scripts/fit_scaling.py"

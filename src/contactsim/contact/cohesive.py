@@ -23,13 +23,13 @@ a half-space.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from contactsim.contact.steps import LoadStep
-from contactsim.contact.tangent import Tangent
 from contactsim.elasticity.symbol import Symbol
 from contactsim.grid import Array, Grid, TransformCounter
 from contactsim.interface.base import Law, potential
@@ -235,10 +235,40 @@ class CohesiveProblem:
     def norm(self, residual: Array) -> float:
         """Return the largest value at any point of a residual's coefficients (exerted, m), over the strength.
 
-        If an upper bound, the sum of all coefficients, is within the tolerance, the bound is returned.
+        What is left beyond heights that do not repeat moves them as more would that is left at their edges: the largest
+        value there is added, times the root of the points along a side. If an upper bound, the sum of all coefficients,
+        is within the tolerance, the bound is returned.
         """
-        bound = (2 * np.abs(residual).sum(axis=1)).max() / self.strength
+        edge = 0.0 if self.heights_grid is None else math.sqrt(max(self.heights_grid.shape))
+        bound = (1 + edge) * (2 * np.abs(residual).sum(axis=1)).max() / self.strength
         if bound <= self.tolerance:
             return float(bound)
         self.counter.add(len(residual), self.grid.size)
-        return float(np.abs(self.grid.backward_rows(residual)).max() / self.strength)
+        values = np.abs(self.grid.backward_rows(residual))
+        if self.heights_grid is None:
+            return float(values.max() / self.strength)
+        inside = self.on_heights(values).max()
+        fields = values.reshape(-1, *self.grid.shape)
+        fields[(slice(None), *map(slice, self.heights_grid.shape))] = 0.0
+        return float((inside + edge * fields.max()) / self.strength)
+
+
+@dataclass(frozen=True)
+class Tangent:
+    """Derivative of the traction by the gap at each point (exerted, read, n), GPa/nm, as a map of coefficients."""
+
+    problem: CohesiveProblem
+    values: Array
+
+    def __call__(self, change: Array) -> Array:
+        """Return the change of the traction's coefficients for one of the displacement's, both (exerted, m)."""
+        field = self.problem.field(change)
+        return self.problem.coefficients(contract(self.values, field))
+
+
+def contract(tangent: Array, field: Array) -> Array:
+    """Return derivatives (exerted, read, n) times a change of the gap (read, n), summed over what is read."""
+    out = tangent[:, 0] * field[0]
+    for row in range(1, len(field)):
+        out += tangent[:, row] * field[row]
+    return out

@@ -16,8 +16,9 @@ from functools import cached_property
 
 import numpy as np
 
+from contactsim.arguments import Heights, Numbers, checked
 from contactsim.contact.steps import LoadStep, PathPart, Slide, Sweep
-from contactsim.errors import InputError, Words, read_numbers
+from contactsim.errors import InputError, Words
 from contactsim.grid import Array
 from contactsim.traits import Trait
 
@@ -25,6 +26,7 @@ PARTS = LoadStep, Sweep, Slide
 """Kinds of parts of a path."""
 
 
+@checked
 @dataclass(frozen=True)
 class LoadPath:
     """Load steps in the order in which they are visited.
@@ -41,8 +43,8 @@ class LoadPath:
     from_touch: bool = False
 
     def __post_init__(self) -> None:
-        if not (isinstance(self.parts, tuple) and self.parts and all(isinstance(part, PARTS) for part in self.parts)):
-            raise InputError("parts", self.parts, "a tuple of one or more steps, sweeps and slides")
+        if not self.parts:
+            raise InputError("parts", self.parts, "one or more steps, sweeps and slides")
         sliding = [part.slides for part in self.parts]
         if sliding != sorted(sliding):
             raise InputError("path", Words("pressed after sliding"), "a path that presses first, then slides")
@@ -93,7 +95,7 @@ class LoadPath:
 
         return replace(self, parts=tuple(edit_part(part) for part in self.parts))
 
-    def origin(self, heights: Array) -> float:
+    def origin(self, heights: Heights) -> float:
         """Return the approach (nm), counted from the mean planes, at which those of the steps are zero."""
         return -float(heights.max()) if self.from_touch else 0.0
 
@@ -132,8 +134,9 @@ class LoadPath:
         return tuple(value for part in self.parts for value in part.mean_pressures)
 
 
+@checked
 def pressures(
-    values: Sequence[float], increment: float | None = None, *, labels: Sequence[str] = (), from_touch: bool = False
+    values: Numbers, increment: float | None = None, *, labels: Sequence[str] = (), from_touch: bool = False
 ) -> LoadPath:
     """Return a path through mean pressures.
 
@@ -150,15 +153,15 @@ def pressures(
     """
     if increment is not None:
         return sweep(Trait.MEAN_PRESSURE, values, increment, from_touch)
-    numbers = read_numbers("mean_pressure", values)
     names = [labels] if isinstance(labels, str) or not isinstance(labels, Sequence) else list(labels)
-    if names and len(names) != len(numbers):
-        raise InputError("labels", labels, f"a name for each of the {len(numbers)} mean pressures, or none")
-    pairs = zip(numbers, names or [""] * len(numbers), strict=True)
+    if names and len(names) != len(values):
+        raise InputError("labels", labels, f"a name for each of the {len(values)} mean pressures, or none")
+    pairs = zip(values, names or [""] * len(values), strict=True)
     return LoadPath(tuple(LoadStep(Trait.MEAN_PRESSURE, value, label) for value, label in pairs), from_touch)
 
 
-def approaches(values: Sequence[float], increment: float | None = None, *, from_touch: bool = False) -> LoadPath:
+@checked
+def approaches(values: Numbers, increment: float | None = None, *, from_touch: bool = False) -> LoadPath:
     """Return a path through approaches.
 
     Parameters
@@ -172,10 +175,10 @@ def approaches(values: Sequence[float], increment: float | None = None, *, from_
     """
     if increment is not None:
         return sweep(Trait.APPROACH, values, increment, from_touch)
-    numbers = read_numbers("approach", values)
-    return LoadPath(tuple(LoadStep(Trait.APPROACH, value) for value in numbers), from_touch)
+    return LoadPath(tuple(LoadStep(Trait.APPROACH, value) for value in values), from_touch)
 
 
+@checked
 def sliding(
     turning_points: Sequence[float],
     increment: float,
@@ -197,8 +200,8 @@ def sliding(
     from_touch : bool
         True where approaches count from first touch instead of the mean planes.
     """
-    ends, held = read_numbers("turning_points", turning_points, least=2), load_step(approach, mean_pressure, "held")
-    return LoadPath((Slide(ends, increment, held),), from_touch)
+    held = load_step(approach, mean_pressure, "held")
+    return LoadPath((Slide(tuple(turning_points), increment, held),), from_touch)
 
 
 def load_step(approach: float | None, mean_pressure: float | None, key: str) -> LoadStep:
@@ -219,4 +222,4 @@ def load_step(approach: float | None, mean_pressure: float | None, key: str) -> 
 
 def sweep(control: Trait, turning_points: Sequence[float], increment: float, from_touch: bool = False) -> LoadPath:
     """Return a path through turning points of an approach or a mean pressure; see `Sweep`."""
-    return LoadPath((Sweep(control, read_numbers("turning_points", turning_points, least=2), increment),), from_touch)
+    return LoadPath((Sweep(control, tuple(turning_points), increment),), from_touch)

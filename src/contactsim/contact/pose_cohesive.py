@@ -11,6 +11,7 @@ from contactsim.elasticity.free_operator import padded_compliance
 from contactsim.elasticity.symbol import NormalSymbol, Symbol
 from contactsim.errors import InputError, is_number
 from contactsim.grid import Array, Grid, TransformCounter
+from contactsim.interface.base import Law
 from contactsim.interface.superposition import superpose
 from contactsim.interface.wall_pressure import WallPressure
 from contactsim.traits import Trait
@@ -20,6 +21,8 @@ MIN_TOLERANCE, MAX_TOLERANCE = 1e-13, 0.1
 solution."""
 
 
+CONTACT_GAP = 1e-3
+"""Gap, over the laws' length, at which a law's tangent is that of contact with a wall."""
 FAR = 1e6
 """Gap beyond the ends of heights that do not repeat, in the longest length of a law: no law reaches so far."""
 
@@ -71,8 +74,13 @@ def pose_cohesive(scene: Scene, heights: Array, tolerance: float, threads: int =
         counter=TransformCounter(grid.size),
         origin=scene.path.origin(heights),
         heights_grid=None if scene.repeats else own,
-        wall=WallPressure.zero(grid.size, stiffness.diagonal[0], law.stiffness) if has_wall else None,
+        wall=WallPressure.zero(grid.size, stiffness.diagonal[0], _stiffness_in_contact(law)) if has_wall else None,
     )
+
+
+def _stiffness_in_contact(law: Law) -> float:
+    """Return the size of a law's tangent where gaps begin to open, GPa/nm."""
+    return float(np.abs(law.tangent(np.full((1, 1), CONTACT_GAP * law.interaction_range))[1]).max())
 
 
 def _reach(scene: Scene) -> float:

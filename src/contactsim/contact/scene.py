@@ -16,13 +16,13 @@ from typing import TypeGuard
 
 import numpy as np
 
+from contactsim.arguments import Count, checked
 from contactsim.contact.loading import LoadPath
 from contactsim.contact.problem_kind import ProblemKind
-from contactsim.contact.scene_checks import check_effects, check_scene
 from contactsim.elasticity.base import Elasticity
 from contactsim.errors import InputError
 from contactsim.grid import Array
-from contactsim.interface.base import Effect, Law, reads_slip
+from contactsim.interface.base import DEEPEST_OVERLAP, Effect, Law, borne_pressure, pulls, reads_slip
 from contactsim.interface.pairing import ALIGNED, Pairing
 from contactsim.surfaces.base import Surface
 from contactsim.surfaces.shapes import Flat
@@ -30,13 +30,11 @@ from contactsim.traits import Trait
 
 RIGID = None
 """Elasticity of a rigid body: absent, not stiff."""
+LAW_LENGTHS = 1e-9, 1e9
+"""Smallest and largest length of a law, over the period."""
 
 
-def _has(part: object, method: str) -> bool:
-    """Return True for an object with a method; a class has none, as brackets have been forgotten."""
-    return hasattr(part, method) and not isinstance(part, type)
-
-
+@checked
 @dataclass(frozen=True)
 class Body:
     """A surface on an elastic solid.
@@ -52,13 +50,8 @@ class Body:
     surface: Surface
     elasticity: Elasticity | None = RIGID
 
-    def __post_init__(self) -> None:
-        if not _has(self.surface, "heights"):
-            raise InputError("surface", self.surface, "a surface, such as a Cylinder or a Topography")
-        if not (self.elasticity is RIGID or _has(self.elasticity, "compliance")):
-            raise InputError("elasticity", self.elasticity, "an elasticity, such as a HalfSpace, or None: rigid")
 
-
+@checked
 @dataclass(frozen=True, init=False)
 class Scene:
     """Two bodies, the effects at their interface, and the load path.
@@ -96,18 +89,14 @@ class Scene:
         path: LoadPath,
         pairing: Pairing = ALIGNED,
     ) -> None:
-        if not (lower is RIGID or isinstance(lower, Body) or _has(lower, "compliance")):
-            raise InputError("lower", lower, "a Body or, for a flat one, its elasticity")
-        if not (isinstance(upper, Body) or _has(upper, "heights")):
-            raise InputError("upper", upper, "a Body or, for a rigid one, its surface")
         upper_body = upper if isinstance(upper, Body) else Body(upper)
         lower_body = lower if isinstance(lower, Body) else Body(Flat.facing(upper_body.surface), lower)
-        acting = tuple(effects) if isinstance(effects, (tuple, list)) else (effects,)
-        check_effects(acting)
+        acting = tuple(effects) if isinstance(effects, Sequence) else (effects,)
         values = {"lower": lower_body, "upper": upper_body, "effects": acting, "path": path, "pairing": pairing}
         for name, value in values.items():
             object.__setattr__(self, name, value)  # a frozen dataclass
-        check_scene(self)
+        for check in (_check_effects, _check_bodies, _check_loads):
+            check(self)
 
     @property
     def elasticities(self) -> tuple[Elasticity, ...]:
@@ -203,7 +192,7 @@ class Scene:
         modes = self.lower.surface.modes, self.upper.surface.modes
         return None if None in modes else max(count for count in modes if count is not None)
 
-    def heights(self, points: int) -> Array:
+    def heights(self, points: Count) -> Array:
         """Return the sum of both surfaces' heights (n,) or (ny, nx), nm, each positive towards the other.
 
         `points` is the number of points along x.
@@ -214,3 +203,73 @@ class Scene:
 def _is_law(effect: Effect) -> TypeGuard[Law]:
     """Return True if an effect is a smooth function of the gap."""
     return Trait.SMOOTH in effect.traits
+
+
+def _check_effects(scene: Scene) -> None:
+    """Raise InputError for effects that are missing, that no overlap resists, or whose lengths are out of range."""
+    if not scene.effects:
+        raise InputError("effects", scene.effects, "at least one, which resists overlap")
+    if scene.kind is ProblemKind.COHESIVE:
+        walls = [effect for effect in scene.effects if Trait.WALL in effect.traits]
+        if not walls and sum(map(borne_pressure, scene.acting_laws)) <= 0:
+            raise InputError("effects", scene.effects, "also one that resists overlap, such as a hard wall")
+        if walls and "t" in scene.components:
+            raise InputError("effects", scene.effects, "laws of the normal gap alone beside a hard wall")
+        if len(walls) > 1:
+            raise InputError("effects", scene.effects, "one hard wall")
+        for hardness in (getattr(wall, "hardness", None) for wall in walls):
+            if hardness is not None:
+                allowed = "left out: yielding is not computed where laws act beside the wall"
+                raise InputError("hardness", hardness, allowed)
+    for law in scene.laws:
+        for name in ("normal_length", "tangential_length"):
+            length = getattr(law, name, scene.length)
+            if not (LAW_LENGTHS[0] <= length / scene.length <= LAW_LENGTHS[1] or length == math.inf):
+                ends = " to ".join(f"{end * scene.length:g}" for end in LAW_LENGTHS)
+                raise InputError(name, length, f"{ends} nm, for a period of {scene.length:g} nm")
+
+
+def _check_bodies(scene: Scene) -> None:
+    """Raise InputError for bodies that do not give way, do not fit each other, or move as is not solved."""
+    if not scene.elasticities:
+        raise InputError("elasticity", None, "an elastic body: at least one of the two must give way")
+    if len({Trait.FREE in body.traits for body in scene.elasticities}) > 1:
+        raise InputError("elasticity", "FreeHalfSpace", "two free half-spaces, or two bodies that repeat")
+    is_line, moves_along = len(scene.lengths) == 1, "t" in scene.components
+    if scene.kind is ProblemKind.COHESIVE and not scene.repeats and is_line:
+        raise InputError("elasticity", "FreeHalfSpace", "HalfSpace or Layer under smooth laws on a line")
+    if moves_along and not is_line:
+        allowed = "those of the normal gap alone: tangential displacements of surfaces are not modelled"
+        raise InputError("effects", scene.effects, allowed)
+    for side, body in (("lower", scene.lower), ("upper", scene.upper)):
+        if moves_along and body.elasticity is not None and body.elasticity.poisson_ratio is None:
+            allowed = f"a number above -1 and at most 0.5, of the {side} body: it moves along x"
+            raise InputError("poisson_ratio", None, allowed)
+    if scene.sliding and not moves_along:
+        raise InputError("effects", scene.effects, "one that reads the tangential gap: else nothing slides")
+    scene.pairing.check(scene.lower.elasticity, scene.upper.elasticity, scene.traits, scene.laws)
+    lengths = scene.lower.surface.lengths, scene.upper.surface.lengths
+    if len(lengths[0]) != len(lengths[1]) or not all(
+        math.isclose(*pair, rel_tol=1e-9) for pair in zip(*lengths, strict=True)
+    ):
+        raise InputError("length", lengths, "the same periods for both surfaces")
+
+
+def _check_loads(scene: Scene) -> None:
+    """Raise InputError for a mean pressure that nothing balances, or only a very deep overlap of the laws."""
+    loads = scene.path.mean_pressures
+    if not loads:
+        return
+    if scene.kind is ProblemKind.HARD_WALL:
+        if min(loads) < 0:
+            raise InputError("mean_pressure", min(loads), "0 or more, in GPa: without adhesion nothing can pull")
+        return
+    if not scene.repeats:
+        allowed = "left out for approaches: smooth laws on a free half-space follow approaches alone"
+        raise InputError("mean_pressure", loads[0], allowed)
+    if min(loads) < 0 and not any(map(pulls, scene.acting_laws)):
+        raise InputError("mean_pressure", min(loads), "0 or more, in GPa: these laws do not pull")
+    bearable = math.inf if Trait.ADHESIVE_WALL in scene.traits else sum(map(borne_pressure, scene.acting_laws))
+    if max(loads) > bearable:
+        allowed = f"at most {bearable:.3g} GPa, which the laws bear when they overlap by {DEEPEST_OVERLAP:g} lengths"
+        raise InputError("mean_pressure", max(loads), allowed)

@@ -8,11 +8,13 @@ followed in longer or shorter increments.
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Protocol
+from typing import Annotated, Protocol
 
-from contactsim.errors import NUMBER, POSITIVE, InputError, is_number, is_positive, keep_floats
+from contactsim.arguments import Only, Positive, checked
+from contactsim.errors import NUMBER, InputError, is_number
 from contactsim.traits import Trait
 
 MAX_STEPS = 1_000_000
@@ -83,7 +85,6 @@ class LoadStep:
             raise InputError(self.control.name.lower(), self.value, NUMBER)
         if not isinstance(self.label, str):
             raise InputError("labels", self.label, "text")
-        keep_floats(self)
         if (self.held is not None) != (self.control is Trait.SLIDE):
             raise InputError("held", self.held, "an approach or a mean pressure while sliding, and only then")
 
@@ -137,6 +138,11 @@ class LoadStep:
         return self.label or f"{self.control.name.lower()}={self.value:g}"
 
 
+TurningPoints = Annotated[tuple[float, ...], Only("a list of two or more numbers", lambda values: len(values) > 1)]
+Steps = Annotated[Sequence[LoadStep], Only("one or more load steps", bool)]
+
+
+@checked
 @dataclass(frozen=True)
 class Sweep:
     """Approaches or mean pressures through turning points, in equal increments.
@@ -152,12 +158,9 @@ class Sweep:
     """
 
     control: Trait
-    turning_points: tuple[float, ...]
-    increment: float
+    turning_points: TurningPoints
+    increment: Positive
     slides = False
-
-    def __post_init__(self) -> None:
-        _check_increment(self)
 
     @property
     def steps(self) -> tuple[LoadStep, ...]:
@@ -182,6 +185,7 @@ class Sweep:
         return replace(self, increment=increment)
 
 
+@checked
 @dataclass(frozen=True)
 class Slide:
     """Sliding distances along x through turning points, in equal increments.
@@ -196,13 +200,10 @@ class Slide:
         Approach or mean pressure under which the surfaces slide.
     """
 
-    turning_points: tuple[float, ...]
-    increment: float
+    turning_points: TurningPoints
+    increment: Positive
     held: LoadStep
     slides = True
-
-    def __post_init__(self) -> None:
-        _check_increment(self)
 
     @property
     def steps(self) -> tuple[LoadStep, ...]:
@@ -222,13 +223,6 @@ class Slide:
     def with_increment(self, increment: float) -> Slide:
         """Return the same slide in increments of about that size."""
         return replace(self, increment=increment)
-
-
-def _check_increment(part: Sweep | Slide) -> None:
-    """Raise InputError for an increment that is no positive number; keep it as a float."""
-    if not is_positive(part.increment):
-        raise InputError("increment", part.increment, POSITIVE)
-    keep_floats(part)
 
 
 @lru_cache(maxsize=64)

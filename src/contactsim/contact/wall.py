@@ -27,7 +27,7 @@ def contact_gap(problem: CohesiveProblem, gap: Array, traction: Array) -> Array:
     if problem.wall is None:
         return gap[0]
     pressure = wall_pressure(problem, gap, traction)
-    return np.where(pressure > 0, -pressure / problem.wall.stiffness, np.maximum(gap[0], 0.0))
+    return np.where(pressure > 0, -pressure / problem.wall.edge_stiffness, np.maximum(gap[0], 0.0))
 
 
 def hold_wall(problem: CohesiveProblem, gap: Array, traction: Array) -> CohesiveProblem:
@@ -53,6 +53,14 @@ def balance_wall(problem: CohesiveProblem, displacement: Array) -> CohesiveProbl
     touches = pressure > problem.wall.stiffness * gap[0]
     values = np.where(touches, np.maximum(pressure, 0.0), 0.0)
     return replace(problem, wall=replace(problem.wall, values=values))
+
+
+def correct_wall(problem: CohesiveProblem, gap: Array) -> CohesiveProblem | None:
+    """Return the problem with the wall's pressure corrected at a gap (read, n); None where gaps in contact are zero."""
+    wall = problem.wall
+    if wall is None or wall.largest_gap(gap[0]) <= problem.tolerance * problem.interaction_range:
+        return None
+    return replace(problem, wall=wall.corrected(gap[0]))
 
 
 def is_beyond_closure(problem: CohesiveProblem) -> bool:

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import operator
 from functools import reduce
-from typing import Protocol
+from typing import Annotated, Protocol
 
+from contactsim.arguments import Only
 from contactsim.elasticity.symbol import CoupledSymbol, NormalSymbol, Symbol
-from contactsim.errors import POSITIVE, InputError, is_number, is_positive
+from contactsim.errors import InputError, is_number
 from contactsim.grid import Array, Grid
 from contactsim.traits import Trait
+
+PoissonRatio = Annotated[
+    float, Only("a number above -1 and at most 0.5", lambda value: is_number(value) and -1 < value <= 0.5)
+]
 
 
 class Elasticity(Protocol):
@@ -74,18 +79,6 @@ class Elasticity(Protocol):
     def coupled_stiffness(self, wavenumber: Array) -> CoupledSymbol:
         """Return the traction per displacement (Eqs 2.9-2.13), GPa/nm, at each q ≥ 0; zero for held modes."""
         ...
-
-
-def check_contact_modulus(contact_modulus: object) -> None:
-    """Raise an InputError unless a contact modulus is positive and finite."""
-    if not is_positive(contact_modulus):
-        raise InputError("contact_modulus", contact_modulus, f"{POSITIVE}, in GPa")
-
-
-def check_poisson_ratio(poisson_ratio: object) -> None:
-    """Raise an InputError unless Poisson's ratio is above -1 and at most 1/2."""
-    if not (is_number(poisson_ratio) and -1 < poisson_ratio <= 0.5):
-        raise InputError("poisson_ratio", poisson_ratio, "a number above -1 and at most 0.5")
 
 
 def known_poisson_ratio(body: Elasticity) -> float:

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, Protocol
 
-import ducc0
 import numpy as np
 
+from contactsim import fft
 from contactsim.grid import Array, Grid, TransformCounter, blocks, map_blocks
 
 
@@ -148,8 +148,7 @@ class FourierOperator:
             return self._in_place(values, np.empty(self.grid.wide_shape) if out is None else out)
         half = self.grid.forward(values, out=self._half)
         half *= self.symbol
-        overwrite = {"forward": False, "nthreads": self.grid.threads, "allow_overwriting_input": True}
-        return ducc0.fft.c2r(half, lastsize=self.grid.shape[-1], out=out, **overwrite)
+        return fft.backward(half, self.grid.shape[-1], out=out, may_overwrite=True, threads=self.grid.threads)
 
     def coarser(self, shape: tuple[int, ...]) -> FourierOperator:
         """Return the operator on fewer points, in units of their spacing."""
@@ -167,8 +166,7 @@ class FourierOperator:
             half = scratch.view(np.complex64)[:, : columns // 2 + 1]
             self.grid.forward(field[:, :columns], out=half)
             self._multiply(half, symbol)
-            overwrite = {"forward": False, "nthreads": self.grid.threads, "allow_overwriting_input": True}
-            ducc0.fft.c2r(half, lastsize=columns, out=out[:, :columns], **overwrite)
+            fft.backward(half, columns, out=out[:, :columns], may_overwrite=True, threads=self.grid.threads)
             self.counter.add(2, self.grid.size)
 
         return product
@@ -176,17 +174,17 @@ class FourierOperator:
     def _in_place(self, values: Array, wide: Array) -> Array:
         columns, rows = self.grid.shape[-1], list(blocks(self.grid.shape))
         result, half = wide[:, :columns], wide.view(complex)[:, : columns // 2 + 1]
-        along, across = ({"axes": (axis,), "nthreads": self.grid.threads} for axis in (1, 0))
+        threads = self.grid.threads
         for low, high in rows:
-            half[low:high] = ducc0.fft.r2c(values[low:high], inorm=2, **along)
-        ducc0.fft.c2c(half, inorm=2, out=half, **across)
+            half[low:high] = fft.forward(values[low:high], (1,), threads=threads)
+        fft.transform(half, 0, threads=threads)
         if self._held:
             self._multiply(half, self._held)
         else:
             map_blocks(partial(self._multiply_rows, half), self.grid.shape, self.grid.threads)
-        ducc0.fft.c2c(half, forward=False, out=half, **across)
+        fft.transform_back(half, 0, threads=threads)
         for low, high in rows:
-            result[low:high] = ducc0.fft.c2r(half[low:high], lastsize=columns, forward=False, **along)
+            result[low:high] = fft.backward(half[low:high], columns, (1,), threads=threads)
         return result
 
     def _multiply_rows(self, half: Array, low: int, high: int) -> None:

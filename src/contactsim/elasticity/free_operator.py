@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import ducc0
 import numpy as np
 
+from contactsim import fft
 from contactsim.elasticity.fourier_operator import Product
 from contactsim.elasticity.free_response import rectangle_response, strip_response
 from contactsim.grid import Array, Grid, TransformCounter, blocks
@@ -48,7 +48,7 @@ class FreeLineOperator:
         size = padded_size(self.grid.shape[0])
         count = np.arange(size)
         distance = np.minimum(count, size - count)
-        return np.asarray(ducc0.fft.r2c(strip_response(distance, self.grid.shape[0]), inorm=2).real)
+        return np.asarray(fft.forward(strip_response(distance, self.grid.shape[0])).real)
 
     def hold_symbol(self) -> None:
         """Do nothing: the response is held."""
@@ -58,10 +58,10 @@ class FreeLineOperator:
         size, whole = self.grid.shape[0], padded_size(self.grid.shape[0])
         padded = np.zeros(whole)
         padded[:size] = values
-        half = ducc0.fft.r2c(padded)
+        half = fft.forward(padded, scaled=False)
         half *= self._response
         self.counter.add(4, self.grid.size)
-        moved = ducc0.fft.c2r(half, lastsize=whole, forward=False)[:size]
+        moved = fft.backward(half, whole)[:size]
         if out is None:
             return np.asarray(moved)
         out[...] = moved
@@ -103,7 +103,7 @@ class FreeSurfaceOperator:
         for low, high in blocks(response.shape):
             response[low:high] = rectangle_response(y[low:high], x, dy / dx)
         for axis in (1, 0):  # even in both directions: real coefficients, from half of the values
-            ducc0.fft.dct(response, type=1, axes=(axis,), out=response, nthreads=self.grid.threads)
+            fft.cosine_sums(response, axis, threads=self.grid.threads)
         response /= my * mx
         return response
 
@@ -136,26 +136,26 @@ class FreeSurfaceOperator:
     def _apply(self, values: Array, out: Array, half: Array) -> None:
         """Write the displacement under a pressure to the first columns of out; half: memory for coefficients."""
         (ny, nx), (my, mx) = self.grid.shape, self._padded
-        threads = {"nthreads": self.grid.threads}
+        threads = self.grid.threads
         rows = list(blocks((ny, mx)))
         row_pad = np.zeros((max(high - low for low, high in rows), mx), values.dtype)
         for low, high in rows:
             row_pad[: high - low, :nx] = values[low:high]
-            ducc0.fft.r2c(row_pad[: high - low], axes=(1,), out=half[low:high], **threads)
+            fft.forward(row_pad[: high - low], (1,), out=half[low:high], scaled=False, threads=threads)
         step = max(COLUMN_BLOCK // my, 8)
         for left in range(0, half.shape[1], step):
             part = half[:, left : left + step]
             padded = np.zeros((my, part.shape[1]), half.dtype)
             padded[:ny] = part
-            ducc0.fft.c2c(padded, axes=(0,), out=padded, **threads)
+            fft.transform(padded, 0, scaled=False, threads=threads)
             response = self._response[:, left : left + step].astype(values.dtype)
             padded[: my // 2 + 1] *= response
             padded[my // 2 + 1 :] *= response[my // 2 - 1 : 0 : -1]
-            ducc0.fft.c2c(padded, axes=(0,), forward=False, out=padded, **threads)
+            fft.transform_back(padded, 0, threads=threads)
             part[...] = padded[:ny]
         for low, high in rows:
             back = row_pad[: high - low]
-            ducc0.fft.c2r(half[low:high], axes=(1,), lastsize=mx, forward=False, out=back, **threads)
+            fft.backward(half[low:high], mx, (1,), out=back, threads=threads)
             out[low:high, :nx] = back[:, :nx]
         self.counter.add(6, self.grid.size)
 
@@ -182,7 +182,7 @@ def padded_size(size: int) -> int:
     """Return an even number of points, at least twice as many, on which transforms are fast."""
     padded = 2 * size
     while True:
-        padded = ducc0.fft.good_size(padded, True)
+        padded = fft.good_size(padded)
         if padded % 2 == 0:
             return padded
         padded += 1

@@ -7,13 +7,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from contactsim.elasticity.base import check_contact_modulus, check_poisson_ratio, known_poisson_ratio
+from contactsim.arguments import Modulus, Wavenumbers, checked
+from contactsim.elasticity.base import PoissonRatio, known_poisson_ratio
 from contactsim.elasticity.symbol import CoupledSymbol
-from contactsim.errors import keep_floats
 from contactsim.grid import Array
 from contactsim.traits import Trait
 
 
+@checked
 @dataclass(frozen=True)
 class HalfSpace:
     """Semi-infinite elastic body (the limit of Eq. 2.11 for a large thickness).
@@ -35,16 +36,10 @@ class HalfSpace:
         If a value is outside its range.
     """
 
-    contact_modulus: float
-    poisson_ratio: float | None = None
+    contact_modulus: Modulus
+    poisson_ratio: PoissonRatio | None = None
     traits = frozenset({Trait.HALF_SPACE})
     base_depth = math.inf
-
-    def __post_init__(self) -> None:
-        check_contact_modulus(self.contact_modulus)
-        if self.poisson_ratio is not None:
-            check_poisson_ratio(self.poisson_ratio)
-        keep_floats(self)
 
     @property
     def youngs_modulus(self) -> float | None:
@@ -65,19 +60,20 @@ class HalfSpace:
         safe = np.where(wavenumber > 0, wavenumber, np.inf)
         return np.asarray(2.0 / (self.contact_modulus * safe))
 
-    def coupled_compliance(self, wavenumber: Array) -> CoupledSymbol:
+    def coupled_compliance(self, wavenumber: Wavenumbers) -> CoupledSymbol:
         """Return the compliance [[1-ν, i(½-ν)], [-i(½-ν), 1-ν]]/(μq), nm/GPa, 0 at q = 0."""
         normal = self.compliance(wavenumber)
         ratio = known_poisson_ratio(self)
         return CoupledSymbol(np.stack([normal, normal]), (0.5 - ratio) / (1 - ratio) * normal)
 
-    def coupled_stiffness(self, wavenumber: Array) -> CoupledSymbol:
+    def coupled_stiffness(self, wavenumber: Wavenumbers) -> CoupledSymbol:
         """Return the stiffness μq/(3-4ν) [[4(1-ν), -2i(1-2ν)], [2i(1-2ν), 4(1-ν)]], GPa/nm."""
         ratio = known_poisson_ratio(self)
         entry = self.contact_modulus * (1 - ratio) / (3 - 4 * ratio) * np.asarray(wavenumber)
         return CoupledSymbol(2 * (1 - ratio) * np.stack([entry, entry]), (2 * ratio - 1) * entry)
 
 
+@checked
 @dataclass(frozen=True)
 class FreeHalfSpace(HalfSpace):
     """Semi-infinite elastic body that is loaded on the area of the heights alone: nothing repeats beyond it.

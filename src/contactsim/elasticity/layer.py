@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from contactsim.elasticity.base import check_contact_modulus, check_poisson_ratio
+from contactsim.arguments import Length, Modulus, Wavenumbers, checked
+from contactsim.elasticity.base import PoissonRatio
 from contactsim.elasticity.plane_strain import (
     MAX_DEPTH,
     bonded_denominator,
@@ -16,7 +17,6 @@ from contactsim.elasticity.plane_strain import (
     sinh_less_argument,
 )
 from contactsim.elasticity.symbol import CoupledSymbol
-from contactsim.errors import POSITIVE, InputError, is_positive, keep_floats
 from contactsim.grid import Array
 from contactsim.traits import Trait
 
@@ -24,6 +24,7 @@ UNIFORM_LIMIT = 1e-60
 """|q|h below which a wave counts as a uniform displacement."""
 
 
+@checked
 @dataclass(frozen=True)
 class Layer:
     """Elastic layer that is bonded to a rigid base.
@@ -57,18 +58,11 @@ class Layer:
     denominator are multiplied by 2e^{-2x}, so that nothing overflows.
     """
 
-    contact_modulus: float
-    poisson_ratio: float
-    thickness: float
+    contact_modulus: Modulus
+    poisson_ratio: PoissonRatio
+    thickness: Length
     traits = frozenset({Trait.LAYER})
     couples = True
-
-    def __post_init__(self) -> None:
-        check_contact_modulus(self.contact_modulus)
-        check_poisson_ratio(self.poisson_ratio)
-        if not is_positive(self.thickness):
-            raise InputError("thickness", self.thickness, f"{POSITIVE}, in nm")
-        keep_floats(self)
 
     @property
     def youngs_modulus(self) -> float:
@@ -98,7 +92,7 @@ class Layer:
         uniform = 8 * self.thickness * width * decay
         return 2 / self.contact_modulus * (bulk + uniform) / bonded_denominator(twice, decay, k)
 
-    def coupled_compliance(self, wavenumber: Array) -> CoupledSymbol:
+    def coupled_compliance(self, wavenumber: Wavenumbers) -> CoupledSymbol:
         """Return the compliance (Eqs 2.11-2.13, inverted), nm/GPa; h/C11 and h/C44 at q = 0."""
         uniform, q = self._uniform_modes(wavenumber)
         shear = bonded_shear_compliance(q * self.thickness, self.poisson_ratio)
@@ -106,7 +100,7 @@ class Layer:
         along = np.where(uniform, self.thickness / self.shear_modulus, along)
         return CoupledSymbol(np.stack([self.compliance(wavenumber), along]), np.where(uniform, 0.0, across))
 
-    def coupled_stiffness(self, wavenumber: Array) -> CoupledSymbol:
+    def coupled_stiffness(self, wavenumber: Wavenumbers) -> CoupledSymbol:
         """Return the stiffness (Eqs 2.11-2.13), GPa/nm; C11/h, or 0 at ν = 1/2, and C44/h at q = 0."""
         uniform, q = self._uniform_modes(wavenumber)
         waves = self.shear_modulus * q * bonded_stiffness(q * self.thickness, self.poisson_ratio)

@@ -9,6 +9,7 @@ decides (`contactsim.error_control.neglect`).
 from __future__ import annotations
 
 import itertools
+import json
 import math
 from collections.abc import Mapping, Sequence
 from functools import cache
@@ -19,9 +20,7 @@ import numpy as np
 
 from contactsim.contact.scene import Scene
 from contactsim.contact.simplification import simplify
-from contactsim.elasticity.base import Elasticity
 from contactsim.elasticity.registry import ELASTICITIES
-from contactsim.error_control.relations import read_data_file
 from contactsim.error_control.solution import Solution, relative_difference, solve_setup
 from contactsim.grid import Array
 from contactsim.interface.pairing import ALIGNED
@@ -30,7 +29,7 @@ from contactsim.paths.options import Setup
 from contactsim.surfaces.registry import SURFACES
 from contactsim.traits import Trait
 
-FILE = Path(__file__).with_name("effect_maps.yaml")
+FILE = Path(__file__).with_name("effect_maps.json")
 CLOSE = 1e-3
 """Part of a value by which it may miss one of a map's and count as that."""
 
@@ -79,7 +78,7 @@ def _solve_once(setup: Setup, quantities: Sequence[str], solutions: dict[str, So
 @cache
 def effect_maps() -> dict[str, dict[str, Any]]:
     """Return the maps of the package."""
-    return read_data_file(FILE)
+    return dict(json.loads(FILE.read_text(encoding="utf-8")))
 
 
 def expected_change(scene: Scene, effect: str) -> float | None:
@@ -97,15 +96,9 @@ def _applies(scene: Scene, section: Mapping[str, Any]) -> bool:
     described = (
         _kind_name(SURFACES, scene.upper.surface),
         [_kind_name(EFFECTS, effect) for effect in scene.effects],
-        [_kind_name(ELASTICITIES, body) if body else "rigid" for body in _bodies(scene)],
+        [_kind_name(ELASTICITIES, body) for body in scene.elasticities],
     )
     return described == (section["surface"], section["effects"], section["bodies"])
-
-
-def _bodies(scene: Scene) -> list[Elasticity | None]:
-    """Return the elasticity of the lower body, and of the upper one if it gives way."""
-    lower, upper = scene.lower.elasticity, scene.upper.elasticity
-    return [lower] if upper is None else [lower, upper]
 
 
 def _kind_name(registry: Mapping[str, type], item: object) -> str | None:

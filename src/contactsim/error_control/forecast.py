@@ -1,4 +1,4 @@
-"""Forecast work, time, memory and error of a run from the measured relations, before anything runs.
+"""Forecast work, time and memory of a run from the measured relations, before anything runs.
 
 Work is counted in transforms, which do not depend on the machine. Seconds are counted in those of one transform, which
 is timed here and now.
@@ -15,29 +15,23 @@ from functools import cache
 import numpy as np
 
 from contactsim.durations import duration_text
-from contactsim.error_control.knobs import EXPECTED, GRID, PATH_TOLERANCE, grid_features
-from contactsim.error_control.measured import is_measured
-from contactsim.error_control.options import choose_companions, choose_options, expect_error
-from contactsim.error_control.relations import Family, scaling_relations
-from contactsim.error_control.scaling import QUANTITIES, scene_family
+from contactsim.error_control.options import choose_options, coarser_setups, refine
+from contactsim.error_control.scaling import cost_relations, features, run_family
 from contactsim.errors import InputError
 from contactsim.grid import Grid
 from contactsim.paths.options import Setup
-from contactsim.paths.requested import Requested
 from contactsim.solvers.registry import default_solver_name, make_solver, solver_class
 from contactsim.traits import Trait
 
 TIMINGS, UNIT_POINTS, BATCH = 7, 4096, 100
 """How the unit of forecast times is timed: the best of some batches of transforms of a grid."""
-
-
-FREE_WORK = {1: 2.0, 2: 3.0}
-"""Transforms of a product on a free half-space, over those of a periodic one, by dimension."""
+REFINEMENT = 3.0
+"""Grid of most final runs over the one that is expected to do, as estimates lie above most errors."""
 
 
 @dataclass(frozen=True)
 class Forecast:
-    """Expected work, time, memory and error of a run.
+    """Expected work, time and memory of a run.
 
     Parameters
     ----------
@@ -53,8 +47,6 @@ class Forecast:
         Time in that of one transform of 4096 points.
     megabytes : float
         Memory of all arrays at their peak.
-    errors : dict from str to float
-        Relative errors by quantity; NaN for measured heights, whose spacing decides them.
     unsure : tuple of str
         Features in which the scene lies beyond all that was measured.
     """
@@ -65,7 +57,6 @@ class Forecast:
     transforms: float
     units: float
     megabytes: float
-    errors: dict[str, float]
     unsure: tuple[str, ...]
 
     @property
@@ -85,7 +76,6 @@ class Forecast:
             f"transforms   {_rounded(self.transforms)} of that grid{before}",
             f"time         {duration_text(self.seconds)} of CPU on one thread",
             f"memory       {_rounded(self.megabytes)} MB of arrays",
-            f"error        {_describe_errors(self)}",
             *_describe_guess(self.unsure),
         ]
 
@@ -104,62 +94,38 @@ def forecast_run(setup: Setup) -> Forecast:
     return forecast_to_error(setup, accuracy.error, accuracy.quantities)
 
 
-def forecast_setup(setup: Setup, quantities: Sequence[str] = ()) -> Forecast:
-    """Forecast a run as it is; quantities: whose errors are told, those usual for the scene where empty."""
+def forecast_setup(setup: Setup) -> Forecast:
+    """Forecast a run as it is."""
     scene, options = setup.scene, setup.options
-    name_of_family, default = scene_family(scene), default_solver_name(scene)
+    default = default_solver_name(scene)
     if options.solver is not None and type(options.solver) is not solver_class(default):
         allowed = f"{default}: the costs of others were not measured"
         raise InputError("solver.kind", type(options.solver).__name__, allowed)
-    relations = scaling_relations()
-    family = relations.families[name_of_family]
+    family, places = cost_relations()[run_family(scene)], features(setup)
     size, steps = setup.size, len(scene.path.steps)
-    places = [numbers | step_features(setup) for numbers in grid_features(scene, setup.points)]
-    factor = 1.0 if scene.repeats else FREE_WORK[len(scene.lengths)]
-    transforms, per = factor * sum(family.transforms(numbers) for numbers in places), family.seconds
-    seconds = per["step"] * steps + transforms * (per["transform"] + per["point"] * size * math.log2(size))
+    transforms, per = sum(family.work(numbers) for numbers in places), family.units
+    units = per["step"] * steps + transforms * (per["transform"] + per["point"] * size * math.log2(size))
     method = options.solver or make_solver(default)
     return Forecast(
         points=setup.points,
         unknowns=size * len(scene.exerted),
         steps=steps,
         transforms=transforms,
-        units=seconds / relations.unit,
+        units=units,
         megabytes=method.fields * len(scene.components) * size * 8 / 1e6,
-        errors={name: _expected_error(setup, family, name) for name in quantities or QUANTITIES[name_of_family]},
         unsure=tuple(dict.fromkeys(name for numbers in places for name in family.outside(numbers))),
     )
 
 
-def _expected_error(setup: Setup, family: Family, name: str) -> float:
-    """Return the expected relative error of a quantity; NaN for measured heights, whose spacing decides it."""
-    if is_measured(setup.scene):
-        return math.nan
-    return expect_error(setup, family, name, GRID if setup.scene.sliding else EXPECTED)
-
-
-def step_features(setup: Setup) -> dict[str, float]:
-    """Return the features of how a run is solved: its tolerance, and 1 where every increment is solved."""
-    tolerance = math.log(setup.options.tolerance / PATH_TOLERANCE)
-    return {
-        "tolerance": math.log(setup.options.tolerance),
-        "loose": max(tolerance, 0.0),
-        "tight": max(-tolerance, 0.0),
-        "every": float(setup.options.increments == Requested()),
-    }
-
-
 def forecast_to_error(setup: Setup, error: float, quantities: Sequence[str] = ()) -> Forecast:
-    """Forecast a run to a wanted error, its companions included, in transforms of its own grid."""
-    chosen = choose_options(setup, error, quantities)
-    run = forecast_setup(chosen, quantities)
-    part = scaling_relations().families[scene_family(chosen.scene)].warm_start
-    transforms, units = part * run.transforms, part * run.units
-    for companion in choose_companions(chosen):
-        before = forecast_setup(companion, quantities)
-        transforms += before.transforms * companion.size / chosen.size
-        units += before.units
-    return replace(run, transforms=transforms, units=units)
+    """Forecast a run to a wanted error, on the grid at which most scenes end, with the coarser runs before it."""
+    expected = choose_options(setup, error, quantities)
+    chosen = refine(expected, REFINEMENT, error)
+    run = forecast_setup(chosen)
+    coarser = [*coarser_setups(expected), expected]
+    before = [(forecast_setup(coarse), coarse.size / chosen.size) for coarse in coarser]
+    transforms = run.transforms + sum(forecast.transforms * part for forecast, part in before)
+    return replace(run, transforms=transforms, units=run.units + sum(forecast.units for forecast, _ in before))
 
 
 @cache
@@ -183,7 +149,7 @@ def describe_forecasts(setups: Sequence[Setup], forecasts: Sequence[Forecast]) -
         increments = type(setup.options.increments).__name__.lower()
         unit = "GPa" if setup.scene.path.steps[-1].control is Trait.MEAN_PRESSURE else "nm"
         grid += f", increments of {setup.scene.path.increment:g} {unit}, {increments}"
-    before = ", a coarser run before included" * (setup.options.accuracy is not None)
+    before = ", coarser runs before included" * (setup.options.accuracy is not None)
     unsure = tuple(dict.fromkeys(name for forecast in forecasts for name in forecast.unsure))
     lines = replace(first, unsure=()).lines(grid, before)
     if len(setups) > 1:
@@ -201,11 +167,3 @@ def _rounded(number: float) -> str:
 def _describe_guess(unsure: Sequence[str]) -> list[str]:
     """Return a line on the features in which scenes lie beyond all that was measured; none where there are none."""
     return [f"beyond what was measured, so a guess: {', '.join(unsure)}"] if unsure else []
-
-
-def _describe_errors(forecast: Forecast) -> str:
-    """Return the expected errors in words."""
-    if any(map(math.isnan, forecast.errors.values())):
-        return "known after the run: what leaving out every second measured point changes"
-    errors = ", ".join(f"{name} {error:.2g}" for name, error in forecast.errors.items())
-    return f"{errors} (relative, as expected of such scenes)"

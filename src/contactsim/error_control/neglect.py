@@ -11,22 +11,19 @@ from __future__ import annotations
 import json
 import logging
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 
-import numpy as np
-
-from contactsim.code_digest.modules import computing_digest
+from contactsim.code_digest import computing_digest
 from contactsim.contact.problem_kind import ProblemKind
 from contactsim.contact.scene import Scene
 from contactsim.contact.simplification import SIMPLIFICATIONS
 from contactsim.error_control.effect_maps import FILE, change_without, expected_change
-from contactsim.error_control.options import coarsen
-from contactsim.error_control.scaling import shortest_range, total_strength
+from contactsim.error_control.options import coarser_setups
 from contactsim.error_control.solution import Solution
 from contactsim.errors import InputError
 from contactsim.paths.options import Setup
+from contactsim.paths.requested import Requested
 from contactsim.provenance import digest
-from contactsim.status import LIMITS, process_zone
 
 logger = logging.getLogger(__name__)
 
@@ -34,8 +31,6 @@ NEAR_FACTOR = 10.0
 """Multiple of the tolerance up to which an effect is checked."""
 LOOSE_TOLERANCE = 1e-5
 """Tolerance of a check along a path, in parts of the strength, if that of the run is not looser."""
-COARSE_FACTOR = 4
-"""Ratio of the grid to that of the check, where it resolves all waves."""
 
 
 @dataclass
@@ -99,21 +94,9 @@ def expected_neglect(scene: Scene, tolerance: float) -> list[str]:
 
 
 def decide_neglect(samples: Sequence[Setup], tolerance: float, quantities: Sequence[str]) -> Decision:
-    """Decide which effects to neglect.
+    """Decide which effects to neglect: those that change quantities by a tolerance at most, each and all together.
 
-    Parameters
-    ----------
-    samples : sequence of Setup
-        The scene with all its effects, for each member of the sample.
-    tolerance : float
-        Relative change that quantities may have.
-    quantities : sequence of str
-        Quantities to compare.
-
-    Returns
-    -------
-    Decision
-        The effects whose neglect changes no quantity by more, each and all together.
+    samples: the scene with all its effects, for each member of the sample
     """
     scene = samples[0].scene
     decision = Decision(expected={name: expected_change(scene, name) for name in neglectable_effects(scene)})
@@ -143,44 +126,15 @@ def decide_neglect(samples: Sequence[Setup], tolerance: float, quantities: Seque
 
 
 def _coarse_check(setup: Setup) -> Setup:
-    """Return a setup on a coarser grid, on which its path can still be followed."""
-    if setup.options.accuracy is not None:
-        return coarsen(setup.with_options(accuracy=None))
-    return COARSE_CHECKS[setup.scene.kind](setup)
-
-
-def _coarse_loads(setup: Setup) -> Setup:
-    """Return loads at a hard wall on a coarser grid."""
-    factor = _coarse_factor(setup, np.inf)
-    return setup.with_options(points=setup.points // factor) if factor > 1 else setup
-
-
-def _coarse_path(setup: Setup) -> Setup:
-    """Return a path of cohesive laws on a coarser grid which still resolves its process zone."""
-    scene, options = setup.scene, setup.options
-    zone = process_zone(scene.contact_modulus, total_strength(scene), shortest_range(scene))
-    factor = _coarse_factor(setup, LIMITS["process_zone_step"][0] * zone)
-    return setup.with_options(
-        points=setup.points // factor if factor > 1 else options.points,
-        tolerance=max(options.tolerance, LOOSE_TOLERANCE),
-        increments=None if options.increments is None else options.increments.coarsened(factor),
-    )
-
-
-COARSE_CHECKS: dict[ProblemKind, Callable[[Setup], Setup]] = {
-    ProblemKind.HARD_WALL: _coarse_loads,
-    ProblemKind.COHESIVE: _coarse_path,
-}
-
-
-def _coarse_factor(setup: Setup, max_spacing: float) -> int:
-    """Return the factor by which the grid may be coarser; 1 for a measured surface, which has its own grid."""
-    surface = setup.scene.upper.surface
-    if surface.points is not None:
-        return 1
-    fewest = max(2 * (surface.modes or 0) + 1, setup.scene.length / max_spacing)
-    factors = (COARSE_FACTOR, COARSE_FACTOR // 2, 1)
-    return next(factor for factor in factors if factor == 1 or setup.points // factor >= fewest)
+    """Return a setup on a quarter of its grid, or on the coarsest that shows the scene; as it is on a coarser one."""
+    setup = setup.with_options(accuracy=None)
+    if setup.scene.kind is ProblemKind.COHESIVE:
+        setup = setup.with_options(tolerance=max(setup.options.tolerance, LOOSE_TOLERANCE), increments=Requested())
+    try:
+        coarse = coarser_setups(setup)[0]
+    except InputError:
+        return setup
+    return replace(coarse, scene=replace(coarse.scene, path=setup.scene.path))
 
 
 def _describe(decision: Decision, tolerance: float) -> str:
@@ -189,14 +143,9 @@ def _describe(decision: Decision, tolerance: float) -> str:
     for name, value in decision.expected.items():
         if value is not None:
             measured = decision.measured.get(name)
-            checked = "" if measured is None else f", {_describe_change(measured)} on the sample"
+            checked = "" if measured is None else f", {measured:.2g} on the sample".replace("inf", "not to be compared")
             action = "left out" if name in decision.neglected else "kept"
             parts.append(f"{name} {action}, {value:.2g} by the maps{checked}")
     parts += [f"together {decision.together:.2g} on the sample"] * bool(decision.neglected)
     parts += [f"kept, as no map knows: {', '.join(unknown)}"] * bool(unknown)
     return f"within {tolerance:g}: " + "; ".join(parts or ["there is nothing to leave out"])
-
-
-def _describe_change(change: float) -> str:
-    """Return a change in words."""
-    return f"{change:.2g}" if change < float("inf") else "not to be compared"

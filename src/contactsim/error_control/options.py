@@ -1,48 +1,95 @@
-"""Choose grid, tolerance and increments for a wanted error, before anything runs.
+"""The runs that an error is estimated from: their grids, increments and tolerance.
 
-They follow from measured relations between error and cost (`contactsim.error_control.relations`). The wanted error is a
-relative error of a run's quantities, of which each knob gets a share. `contactsim.error_control.control` then solves
-and finds out whether the choice was right.
+A wanted error leads to the setup that most scenes of the kind need for it. Coarser ones come before it: a half and a
+quarter of its grid, with two and four times its increments, as far as they show the scene. Finer ones follow where the
+estimate asks for them. Measured heights have no finer grid; their coarser ones are every second and fourth point.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 
-from contactsim.error_control.grids import MIN_POINTS, choose_grid
-from contactsim.error_control.knobs import CONTACT_POINTS, EXPECTED, KNOBS, solve_relations
-from contactsim.error_control.measured import choose_measured, is_measured, sample_every_second
-from contactsim.error_control.relations import Family, scaling_relations
-from contactsim.error_control.scaling import (
-    LINE,
-    PATH,
-    QUANTITIES,
-    ROUGH_PATH,
-    SLIDE,
-    SURFACE,
-    contact_scale,
-    features,
-    scene_family,
-)
-from contactsim.error_control.stepwise import begin_stepwise, has_relations
-from contactsim.errors import InputError
+from contactsim.contact.problem_kind import ProblemKind
+from contactsim.contact.scene import Scene
+from contactsim.error_control.grids import choose_grid, coarsest_points, expected_points, shortest_range
+from contactsim.error_control.measured import MIN_POINTS, STRIDES, is_measured, thin_out
+from contactsim.errors import InputError, Words
+from contactsim.observables.dataset_forms import KEPT_NUMBERS
+from contactsim.observables.friction import ONSET
+from contactsim.observables.hysteresis import CYCLES
+from contactsim.observables.path_summary import SUMMARIES
+from contactsim.paths.nested import Nested
 from contactsim.paths.options import Setup
+from contactsim.paths.requested import Requested
+from contactsim.traits import Trait
 
-SAFETY = {LINE: 0.45, SURFACE: 0.75, PATH: 0.6, ROUGH_PATH: 0.4, SLIDE: 0.7}
-"""Part of an error that the grid is chosen for, as random scenes ask for."""
-COARSE_INCREMENT_RATIOS = {LINE: 1.0, SURFACE: 1.0, PATH: 3.0, ROUGH_PATH: 2.0, SLIDE: 1.0}
-"""Increments of a coarse companion, over those of its run; of slides the same, as states tell what they leave."""
-COARSE_GRID_RATIOS = {LINE: 7.0, SURFACE: 3.0, PATH: 5.0, ROUGH_PATH: 6.0, SLIDE: 3.0}
-"""Ratio of the grid that is expected to be needed to the companion's."""
+MIN_RATIO, RATIO = math.sqrt(2), 2.0
+"""Least and usual ratio of the grids of two runs: nearer ones agree by chance."""
+TOLERANCES = {ProblemKind.HARD_WALL: 0.1, ProblemKind.COHESIVE: 0.01}
+MAX_TOLERANCES = {ProblemKind.HARD_WALL: 1e-3, ProblemKind.COHESIVE: 1e-4}
+"""Tolerance over the wanted error, and the largest, in its own unit: what it leaves is far below that error."""
+FINE_INCREMENT, FINE_STEPS = 0.7, 16
+"""Increment, in the shortest range of the laws, and steps through mean pressures that most paths need for an error of
+0.01; other errors by their root."""
+MAX_INCREMENT, MIN_STEPS = 2.8, 4
+"""Longest increment, in the same range, and fewest steps, of the coarsest run."""
+JUMP_INCREMENT = 0.5
+"""Longest increment, in the same range, in which a jump is told from a smooth motion."""
+LOAD_QUANTITIES = (
+    "relative_contact_area_subgrid",
+    "relative_contact_area",
+    "relative_contact_area_corrected",
+    "approach",
+    "mean_gap",
+    "max_pressure",
+    "rms_gradient_contact_subgrid",
+)
+"""Numbers of a load at a hard wall whose error is told."""
+KEPT_QUANTITIES = {"contact_stiffness": "stiffness", "patches": "patches", "largest_patch_share": "patches"}
+"""The same of those that a run has to keep: under which name it does."""
+USUAL_QUANTITIES = {
+    (ProblemKind.HARD_WALL, 1): LOAD_QUANTITIES[:1],
+    (ProblemKind.HARD_WALL, 2): LOAD_QUANTITIES[:1],
+    (ProblemKind.COHESIVE, 1): ("pull_off_load_loading", "final_contact_length"),
+    (ProblemKind.COHESIVE, 2): ("pull_off_force_loading", "final_contact_area"),
+}
+"""Quantities whose error counts where no others are named, by kind of problem and dimension."""
 
 
-SECOND_COARSE_GRID_RATIOS = {SLIDE: 1.7}
-"""The same of a second companion."""
+def usual_quantities(scene: Scene) -> tuple[str, ...]:
+    """Return the quantities whose error counts where no others are named."""
+    return ("static_friction",) if scene.sliding else USUAL_QUANTITIES[scene.kind, len(scene.lengths)]
+
+
+def check_quantities(setup: Setup, quantities: Sequence[str]) -> tuple[str, ...]:
+    """Return the quantities whose errors are told: those named, or those usual for the scene.
+
+    Raises
+    ------
+    InputError
+        For a quantity that such a scene does not have, and for paths without one measure of finer and coarser.
+    """
+    scene = setup.scene
+    if scene.kind is ProblemKind.HARD_WALL and Trait.APPROACH in scene.traits:
+        raise InputError("path", "approach", "mean pressures: with a hard wall an accuracy needs loads above zero")
+    if {Trait.APPROACH, Trait.MEAN_PRESSURE} <= scene.traits and not scene.sliding:
+        raise InputError("path", Words("approaches and mean pressures"), "one of them, with an accuracy")
+    dimensions, keep = len(scene.lengths), setup.options.keep or ()
+    if scene.kind is ProblemKind.HARD_WALL:
+        known = (*LOAD_QUANTITIES, *(name for name, part in KEPT_QUANTITIES.items() if part in keep))
+    else:
+        known = (*SUMMARIES[dimensions], *CYCLES[dimensions], *(ONSET if scene.sliding else ()))
+    for name in quantities:
+        if name not in known:
+            missing = f", or one of {', '.join(KEPT_QUANTITIES)} where `keep` has it" if name in KEPT_NUMBERS else ""
+            raise InputError("quantities", name, f"some of {', '.join(known)}{missing}")
+    return tuple(quantities) or usual_quantities(scene)
 
 
 def choose_options(setup: Setup, error: float, quantities: Sequence[str] = ()) -> Setup:
-    """Choose grid, tolerance and increments for a relative error.
+    """Choose grid, tolerance and increments that most scenes of the kind need for a relative error.
 
     Parameters
     ----------
@@ -61,61 +108,71 @@ def choose_options(setup: Setup, error: float, quantities: Sequence[str] = ()) -
     Raises
     ------
     InputError
-        For a quantity or a scene without a relation, or where no affordable grid is fine enough.
+        For a quantity that the scene does not have, or where no affordable grid is fine enough.
     """
-    scene = setup.scene
+    check_quantities(setup, quantities)
+    scene, kind = setup.scene, setup.scene.kind
+    tolerance = min(MAX_TOLERANCES[kind], TOLERANCES[kind] * error)
+    setup = setup.with_options(tolerance=tolerance)
+    if kind is ProblemKind.COHESIVE:
+        setup = setup.with_options(increments=Requested())  # adaptive ones would locate every jump
+        if scene.path.increment is not None:
+            increment = _longest_increment(scene) * FINE_INCREMENT / MAX_INCREMENT * math.sqrt(error / 0.01)
+            setup = setup.with_increment(float(f"{min(increment, _longest_increment(scene) / RATIO):.3g}"))
     if is_measured(scene):
-        return choose_measured(setup, quantities)
-    if not has_relations(scene):
-        return begin_stepwise(setup, error, quantities)
-    name_of_family = scene_family(scene)
-    family, names = scaling_relations().families[name_of_family], quantities or QUANTITIES[name_of_family]
-    for name in names:
-        if name not in family.errors["points"]:
-            raise InputError("accuracy.quantities", name, f"some of {', '.join(family.errors['points'])}")
-    knobs = KNOBS[scene.kind]
-    setup = knobs.choose_increment(setup, family, names, error)
-    scene = setup.scene
-    spacing = min(
-        scale * math.exp(logarithm)
-        for numbers, scale in zip(features(scene), knobs.contact_scales(scene), strict=True)
-        for logarithm in solve_relations(
-            family.errors["points"], names, "grid", numbers, SAFETY[name_of_family] * error
-        )
-    )
-    if name_of_family in CONTACT_POINTS:
-        spacing = min(spacing, contact_scale(scene) / CONTACT_POINTS[name_of_family] * math.sqrt(error))
-    points = choose_grid(scene, max(scene.length / spacing, 2 * MIN_POINTS), error)
-    setup = knobs.choose_tolerance(setup.with_options(points=points), family, names, error)
-    return knobs.suit_grid(setup)
+        return setup
+    points = max(expected_points(scene, error), RATIO * coarsest_points(scene))
+    return setup.with_options(points=choose_grid(scene, points, error))
 
 
-def set_grid(setup: Setup, points: float, error: float = 0.0) -> Setup:
-    """Return a setup on a grid of about that many points, its path followed as suits it; error: see `choose_grid`."""
-    setup = setup.with_options(points=choose_grid(setup.scene, points, error))
-    return KNOBS[setup.scene.kind].suit_grid(setup)
+def _longest_increment(scene: Scene) -> float:
+    """Return the increment of the coarsest run along a path, nm or GPa."""
+    if scene.path.steps[-1].control is Trait.MEAN_PRESSURE:
+        return sum(abs(after - before) for before, after in itertools.pairwise(scene.path.turning_points)) / MIN_STEPS
+    return MAX_INCREMENT * shortest_range(scene)
+
+
+def shows_jumps(setup: Setup) -> bool:
+    """Return True where a jump, or the onset of a slide, would be seen: those of a path by load always are."""
+    path = setup.scene.path
+    if path.increment is None or path.steps[-1].control is Trait.MEAN_PRESSURE:
+        return True
+    return path.increment <= JUMP_INCREMENT * shortest_range(setup.scene)
+
+
+def coarser_setups(setup: Setup) -> list[Setup]:
+    """Return two setups that are coarser than another in grid and increments, the coarsest first.
+
+    They have a quarter and a half of its points along x, or as few as still show the scene. InputError where none is
+    coarser, and for nested increments.
+    """
+    if isinstance(setup.options.increments, Nested):
+        raise InputError("increments", "Nested", "Requested or Adaptive: an error is told by longer ones")
+    if is_measured(setup.scene):
+        shape = setup.scene.upper.surface.shape(setup.points)
+        if min(shape) < MIN_POINTS:
+            raise InputError("surface", Words(f"{shape} points"), f"{MIN_POINTS} points or more each way")
+        return [scale_increment(thin_out(setup, stride), stride) for stride in STRIDES]
+    coarsest = coarsest_points(setup.scene)
+    ratio = min(RATIO, math.sqrt(setup.points / coarsest))
+    if ratio < MIN_RATIO * (1 - 1e-9):
+        least = math.ceil(2 * coarsest)
+        raise InputError("points", setup.points, f"{least} or more: an error is told by two coarser grids")
+    return [refine(setup, ratio**-2), refine(setup, 1 / ratio)]
+
+
+def refine(setup: Setup, ratio: float, error: float = 0.0) -> Setup:
+    """Return a setup with that many times the points along x and as much shorter increments; error: see `choose_grid`.
+
+    Measured heights keep their points.
+    """
+    setup = scale_increment(setup, 1 / ratio)
+    if is_measured(setup.scene):
+        return setup
+    return setup.with_options(points=choose_grid(setup.scene, setup.points * ratio, error))
 
 
 def scale_increment(setup: Setup, factor: float) -> Setup:
     """Return a setup with the increments of its slide or path times a factor; unchanged where there are none."""
-    return KNOBS[setup.scene.kind].scale_increment(setup, factor)
-
-
-def coarsen(setup: Setup) -> Setup:
-    """Return the coarse companion of a setup: a coarser grid and, on paths without a slide, longer increments."""
-    if is_measured(setup.scene):
-        return sample_every_second(setup)
-    family = scene_family(setup.scene)
-    setup = scale_increment(setup, COARSE_INCREMENT_RATIOS[family])
-    return set_grid(setup, setup.points / COARSE_GRID_RATIOS[family])
-
-
-def choose_companions(setup: Setup) -> list[Setup]:
-    """Return the coarser runs that a setup is compared with, the coarsest first: one, or two of a slide."""
-    ratio = SECOND_COARSE_GRID_RATIOS.get(scene_family(setup.scene))
-    return [coarsen(setup), *([set_grid(setup, setup.points / ratio)] if ratio else [])]
-
-
-def expect_error(setup: Setup, family: Family, name: str, knobs: Sequence[str] = EXPECTED) -> float:
-    """Return the largest relative error of a quantity that knobs, grid and increments, are expected to leave."""
-    return KNOBS[setup.scene.kind].expect_error(setup, family, name, knobs)
+    increment = setup.scene.path.increment
+    return setup if increment is None else setup.with_increment(float(f"{increment * factor:.4g}"))

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
@@ -29,17 +29,11 @@ class Solution:
         The dataset of the path, with dimension `step`.
     values : dict from str to Array
         Quantities, one value for each load or for the path as a whole.
-    resolved : Array
-        Pairs of neighbours at an edge of contact over points in contact, for each load; empty for cohesive laws.
-    increment_errors : dict from str to Array
-        Relative error that the increments of a slide leave in each quantity, as its states tell.
     """
 
     setup: Setup
     data: xr.Dataset
     values: dict[str, Array]
-    resolved: Array
-    increment_errors: Mapping[str, Array] = field(default_factory=dict)
 
     @property
     def points(self) -> int:
@@ -67,30 +61,6 @@ class Solution:
         return self.points * int(self.data.get("points_y", 1))
 
 
-def _read_loads(setup: Setup, data: xr.Dataset, names: Sequence[str]) -> Solution:
-    """Return a solution with quantities of each load at a hard wall, and how well its contacts are resolved."""
-    values = {name: data[name].values.astype(float) for name in names}
-    return Solution(setup, data, values, data.contact_edges.values / np.maximum(data.contact_points.values, 1))
-
-
-def _read_path(setup: Setup, data: xr.Dataset, names: Sequence[str]) -> Solution:
-    """Return a solution with quantities of a whole path of cohesive laws."""
-    if not is_solved(data.status).any():
-        return Solution(setup, data, {name: np.full(1, np.nan) for name in names}, np.empty(0))
-    summary = summarise_paths(combine_runs([(data.drop_vars("seconds"), {"member": 0})]), names).isel(member=0)
-    values = {name: np.atleast_1d(summary[name].values.astype(float)) for name in names}
-    errors = {}
-    for name in names if setup.scene.sliding else ():
-        size = np.atleast_1d(summary.get(f"{name}_increment_error", np.nan))
-        if np.isfinite(size).all():
-            errors[name] = np.divide(size, np.abs(values[name]), out=np.zeros(1), where=size > 0)
-    return Solution(setup, data, values, np.empty(0), errors)
-
-
-Reader = Callable[[Setup, xr.Dataset, Sequence[str]], Solution]
-READERS: dict[ProblemKind, Reader] = {ProblemKind.HARD_WALL: _read_loads, ProblemKind.COHESIVE: _read_path}
-
-
 def solve_setup(setup: Setup, names: Sequence[str], coarse: Solution | None = None) -> Solution:
     """Simulate a setup as it is and read quantities off it.
 
@@ -101,11 +71,17 @@ def solve_setup(setup: Setup, names: Sequence[str], coarse: Solution | None = No
     names : sequence of str
         Quantities to read.
     coarse : Solution, optional
-        The same at a hard wall on a coarser grid with its fields, from which the solver's cascade begins.
+        The same on a coarser grid; at a hard wall the solution begins from its fields.
     """
-    reuse = Reuse(coarse=coarse.data) if coarse is not None and "pressure" in coarse.data else None
+    loads = setup.scene.kind is ProblemKind.HARD_WALL
+    reuse = Reuse(coarse=coarse.data) if loads and coarse is not None and "pressure" in coarse.data else None
     data = follow_path(setup.with_options(accuracy=None), reuse)
-    return READERS[setup.scene.kind](setup, data, names)
+    if loads:
+        return Solution(setup, data, {name: data[name].values.astype(float) for name in names})
+    if not is_solved(data.status).any():
+        return Solution(setup, data, {name: np.full(1, np.nan) for name in names})
+    summary = summarise_paths(combine_runs([(data.drop_vars("seconds"), {"member": 0})]), names).isel(member=0)
+    return Solution(setup, data, {name: np.atleast_1d(summary[name].values.astype(float)) for name in names})
 
 
 def relative_difference(first: Solution, second: Solution, name: str) -> Array:

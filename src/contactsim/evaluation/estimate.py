@@ -11,8 +11,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from contactsim.evaluation.calibration import validation
-from contactsim.evaluation.calibration.sampling import read_trials
+from contactsim.evaluation.calibration.settings import read_trials
 from contactsim.evaluation.effects.effect_cost import read_variants
 from contactsim.evaluation.effects.map_settings import read_maps
 from contactsim.evaluation.resources import START_SECONDS, predict_megabytes, predict_seconds
@@ -104,7 +103,7 @@ def count_other_jobs(folder: str | Path, plan: Plan) -> dict[str, int]:
     counts |= {"stability": len(stability.hazards) if stability else 0}
     counts |= {"effects": int(read_variants(folder, plan.seed, plan.overrides["effects"], plan.tier) is not None)}
     counts |= {
-        "trials": len(validation.trial_names(trials)) if trials else 0,
+        "trials": len(trials.names(trials.trial)) if trials else 0,
         "effect_maps": len(maps.maps) if maps else 0,
     }
     return {name: jobs for name, jobs in counts.items() if jobs}

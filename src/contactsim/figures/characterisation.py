@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import matplotlib as mpl
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from contactsim.errors import InputError, Words
+from contactsim.arguments import Only, checked
 from contactsim.figures import style
 from contactsim.figures.parts.scale_bar import fitting_unit
 from contactsim.reference.persson import persson_area
@@ -16,8 +18,13 @@ from contactsim.status import is_solved
 
 PERSSON = r"Persson, erf$(\sqrt{2}p^*)$"
 
+Characterised = Annotated[
+    xr.Dataset, Only("a dataset that characterise returned", lambda data: "mean_gap_grid_error" in data)
+]
 
-def plot_characterisation(data: xr.Dataset, *, title: str = "", size: tuple[float, float] = (6.9, 5.2)) -> Figure:
+
+@checked
+def plot_characterisation(data: Characterised, *, title: str = "", size: tuple[float, float] = (6.9, 5.2)) -> Figure:
     """Return a figure of the area, the stiffness, the mean gap and the largest pressure of a contact.
 
     Parameters
@@ -34,8 +41,6 @@ def plot_characterisation(data: xr.Dataset, *, title: str = "", size: tuple[floa
     matplotlib.figure.Figure
         Four panels against the mean pressure; bars are changes on halving the grid.
     """
-    if not (isinstance(data, xr.Dataset) and "mean_gap_grid_error" in data):
-        raise InputError("data", Words(type(data).__name__), "a dataset that contactsim.characterise returned")
     solved = data.isel(mean_pressure=np.flatnonzero(is_solved(data.status)))
     factor, unit = fitting_unit(float(solved.mean_gap.max()) if solved.mean_gap.size else 1.0, "nm")
     with mpl.rc_context(style.RC_PARAMS):

@@ -9,9 +9,16 @@ from __future__ import annotations
 
 from typing import Protocol, TypeGuard, cast
 
-from contactsim.errors import POSITIVE, InputError, is_positive
+import numpy as np
+
+from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.traits import Trait
+
+PULL_RANGE = 10.0
+"""Gap, in a law's lengths, up to which a pull is looked for."""
+DEEPEST_OVERLAP = 100.0
+"""Overlap, in a law's lengths, under which it bears any pressure that a scene may have."""
 
 
 class Effect(Protocol):
@@ -94,8 +101,40 @@ def potential(law: Law, gap: Array) -> Array:
     return cast(ConservativeLaw, law).energy(gap)
 
 
-def check_positive(unit: str, **values: float) -> None:
-    """Refuse parameters of a law that are not positive, finite numbers; the unit is quoted."""
-    for name, value in values.items():
-        if not is_positive(value):
-            raise InputError(name, value, f"{POSITIVE}, in {unit}")
+def borne_pressure(law: Law) -> float:
+    """Return the pressure (GPa) that a law bears without slip, under an overlap of 100 of its lengths."""
+    gap = np.zeros((len(law.reads), 1))
+    gap[0] = -DEEPEST_OVERLAP * law.interaction_range
+    return -float(law.traction(gap)[0, 0])
+
+
+def pulls(law: Law) -> bool:
+    """Return True if a law pulls surfaces together somewhere within ten of its lengths, without slip."""
+    gap = np.zeros((len(law.reads), 64))
+    gap[0] = np.linspace(0.0, PULL_RANGE, 64) * law.interaction_range
+    return bool((law.traction(gap)[0] > 0).any())
+
+
+def has_peak(law: Law) -> bool:
+    """Return True for laws that tell their `peak`: the gap (nm) up to which the traction rises, and then falls."""
+    return all(getattr(part, "peak", None) is not None for part in _parts(law))
+
+
+def rising_part(law: Law, gap: Array) -> tuple[Array, Array]:
+    """Return the part of a law's traction that rises with the normal gap, and its derivative; see `Law.tangent`.
+
+    The rest falls. The law, or each of those that it consists of, must tell its peak.
+    """
+    rising, slope = np.zeros(gap.shape), np.zeros((1, *gap.shape))
+    for part in _parts(law):
+        peak = part.peak  # type: ignore[attr-defined]
+        traction, derivative = part.tangent(np.minimum(gap, peak))
+        rising += traction
+        slope += np.where(gap < peak, np.maximum(derivative, 0.0), 0.0)
+    return rising, slope
+
+
+def _parts(law: Law) -> tuple[Law, ...]:
+    """Return the laws that a law is the sum of."""
+    parts: tuple[Law, ...] = getattr(law, "laws", (law,))
+    return parts

@@ -16,17 +16,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Annotated
 
 import numpy as np
 
-from contactsim.errors import POSITIVE, InputError, is_number, is_positive, keep_floats
+from contactsim.arguments import Gap, Length, NotNegative, Only, Work, checked
+from contactsim.errors import POSITIVE, is_positive
 from contactsim.grid import Array
-from contactsim.interface.base import check_positive
 from contactsim.interface.exponentials import MAX_OVERLAP, MAX_SLIP, decay, pull
 from contactsim.interface.normal_law import NormalLaw
 from contactsim.traits import Trait
 
 
+@checked
 @dataclass(frozen=True)
 class CohesiveZone:
     """Mixed-mode cohesive zone (Eq. 2.17).
@@ -47,18 +49,12 @@ class CohesiveZone:
     J. P. McGarry et al., Journal of the Mechanics and Physics of Solids 63 (2014).
     """
 
-    work_of_separation: float
-    work_ratio: float = 0.0
-    normal_length: float = 1.0
-    tangential_length: float = 1.0
+    work_of_separation: Work
+    work_ratio: NotNegative = 0.0
+    normal_length: Length = 1.0
+    tangential_length: Length = 1.0
     reads = frozenset({"n", "t"})
     traits = frozenset({Trait.SMOOTH, Trait.NON_CONSERVATIVE})
-
-    def __post_init__(self) -> None:
-        _check_parameters(self)
-        if not (is_number(self.work_ratio) and self.work_ratio >= 0):
-            raise InputError("work_ratio", self.work_ratio, "0 or a positive number")
-        keep_floats(self)
 
     @property
     def tangential_work(self) -> float:
@@ -87,7 +83,7 @@ class CohesiveZone:
         """Length over which the normal traction changes, nm."""
         return self.normal_length
 
-    def traction(self, gap: Array) -> Array:
+    def traction(self, gap: Gap) -> Array:
         """Return the traction (1 or 2, n), GPa, at a gap (2, n), nm."""
         normal, tangential = self._without_units(gap)
         shear = np.exp(-(tangential**2))
@@ -97,7 +93,7 @@ class CohesiveZone:
         size = 2 * self.tangential_work / self.tangential_length
         return np.stack((normal_traction, size * tangential * decay(normal)[0] * shear))
 
-    def tangent(self, gap: Array) -> tuple[Array, Array]:
+    def tangent(self, gap: Gap) -> tuple[Array, Array]:
         """Return the traction (1 or 2, n), GPa, and its derivatives by both components (1 or 2, 2, n), GPa/nm."""
         normal, tangential = self._without_units(gap)
         shear = np.exp(-(tangential**2))
@@ -132,11 +128,12 @@ class CohesiveZone:
         """Return the law without tangential work of separation."""
         return replace(self, work_ratio=0.0)
 
-    def _without_units(self, gap: Array) -> tuple[Array, Array]:
+    def _without_units(self, gap: Gap) -> tuple[Array, Array]:
         """Return both components of the gap over their lengths."""
         return gap[0] / self.normal_length, np.clip(gap[1] / self.tangential_length, -MAX_SLIP, MAX_SLIP)
 
 
+@checked
 @dataclass(frozen=True)
 class NormalCohesiveZone(NormalLaw):
     """Cohesive zone of the normal gap alone (Eq. 4.1). It has a potential.
@@ -154,16 +151,21 @@ class NormalCohesiveZone(NormalLaw):
         """Largest traction φn/(e δn), GPa."""
         return float(self.work_of_separation / self.normal_length / np.e)
 
-    def traction(self, gap: Array) -> Array:
+    @property
+    def peak(self) -> float:
+        """Gap up to which the traction rises, nm."""
+        return self.normal_length
+
+    def traction(self, gap: Gap) -> Array:
         """Return the traction (1, n), GPa, at a gap (1, n), nm."""
         return self.work_of_separation / self.normal_length * pull(gap / self.normal_length)[0]
 
-    def tangent(self, gap: Array) -> tuple[Array, Array]:
+    def tangent(self, gap: Gap) -> tuple[Array, Array]:
         """Return the traction (1, n), GPa, and its derivative (1, 1, n), GPa/nm."""
         value, slope = pull(gap / self.normal_length)
         return self.work_of_separation / self.normal_length * value, self.stiffness * slope[None]
 
-    def energy(self, gap: Array) -> Array:
+    def energy(self, gap: Gap) -> Array:
         """Return the potential -φn (1 + Δn/δn) exp(-Δn/δn) of shape (n,), N/m, at a gap (1, n), nm."""
         normal = gap[0] / self.normal_length
         inside = np.maximum(normal, -MAX_OVERLAP)
@@ -172,6 +174,7 @@ class NormalCohesiveZone(NormalLaw):
         return self.work_of_separation * (beyond * (value + beyond * slope / 2) - (1 + inside) * np.exp(-inside))
 
 
+@checked
 @dataclass(frozen=True)
 class UncoupledCohesiveZone:
     """Cohesive zone with friction whose normal traction does not depend on the tangential gap (Eqs 4.1 and 2.17).
@@ -189,19 +192,13 @@ class UncoupledCohesiveZone:
         Characteristic lengths δn and δt, nm.
     """
 
-    work_of_separation: float
-    work_ratio: float
-    normal_length: float = 1.0
-    tangential_length: float = 1.0
+    work_of_separation: Work
+    work_ratio: Annotated[float, Only(f"{POSITIVE}; without friction, normal_cohesive_zone", is_positive)]
+    normal_length: Length = 1.0
+    tangential_length: Length = 1.0
     reads = frozenset({"n", "t"})
     exerts = frozenset({"n", "t"})
     traits = frozenset({Trait.SMOOTH, Trait.NON_CONSERVATIVE})
-
-    def __post_init__(self) -> None:
-        if not is_positive(self.work_ratio):
-            raise InputError("work_ratio", self.work_ratio, f"{POSITIVE}; without friction, normal_cohesive_zone")
-        _check_parameters(self)
-        keep_floats(self)
 
     @cached_property
     def _normal(self) -> NormalCohesiveZone:
@@ -228,13 +225,13 @@ class UncoupledCohesiveZone:
         """Length over which the normal traction changes, nm."""
         return self.normal_length
 
-    def traction(self, gap: Array) -> Array:
+    def traction(self, gap: Gap) -> Array:
         """Return the traction (2, n), GPa, at a gap (2, n), nm."""
         traction = self._coupled.traction(gap)
         traction[:1] = self._normal.traction(gap[:1])
         return traction
 
-    def tangent(self, gap: Array) -> tuple[Array, Array]:
+    def tangent(self, gap: Gap) -> tuple[Array, Array]:
         """Return the traction (2, n), GPa, and its derivatives by both components (2, 2, n), GPa/nm."""
         traction, derivative = self._coupled.tangent(gap)
         traction[:1], derivative[:1, :1] = self._normal.tangent(gap[:1])
@@ -252,9 +249,3 @@ class UncoupledCohesiveZone:
     def without_friction(self) -> NormalCohesiveZone:
         """Return the law without tangential work of separation."""
         return self.without_slip()
-
-
-def _check_parameters(law: CohesiveZone | UncoupledCohesiveZone) -> None:
-    """Raise InputError for a work or a length that is not positive."""
-    check_positive("N/m", work_of_separation=law.work_of_separation)
-    check_positive("nm", normal_length=law.normal_length, tangential_length=law.tangential_length)

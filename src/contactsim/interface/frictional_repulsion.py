@@ -7,15 +7,16 @@ from functools import cached_property
 
 import numpy as np
 
-from contactsim.errors import InputError, is_number, keep_floats
+from contactsim.arguments import Gap, Length, NotNegative, Stiffness, Work, checked
+from contactsim.errors import InputError
 from contactsim.grid import Array
-from contactsim.interface.base import check_positive
 from contactsim.interface.cohesive_zone import CohesiveZone
 from contactsim.interface.exponentials import MAX_SLIP
 from contactsim.interface.repulsion import RepulsiveZone, StiffCohesiveZone
 from contactsim.traits import Trait
 
 
+@checked
 @dataclass(frozen=True)
 class FrictionalRepulsiveZone:
     """Repulsion without a pull, and friction in proportion to the pressure.
@@ -38,19 +39,12 @@ class FrictionalRepulsiveZone:
         Characteristic lengths δn and δt, nm.
     """
 
-    work_of_separation: float
-    friction_coefficient: float = 0.0
-    normal_length: float = 1.0
-    tangential_length: float = 1.0
+    work_of_separation: Work
+    friction_coefficient: NotNegative = 0.0
+    normal_length: Length = 1.0
+    tangential_length: Length = 1.0
     reads = frozenset({"n", "t"})
     traits = frozenset({Trait.SMOOTH, Trait.NON_CONSERVATIVE})
-
-    def __post_init__(self) -> None:
-        check_positive("N/m", work_of_separation=self.work_of_separation)
-        if not (is_number(self.friction_coefficient) and self.friction_coefficient >= 0):
-            raise InputError("friction_coefficient", self.friction_coefficient, "0 or a positive number")
-        check_positive("nm", normal_length=self.normal_length, tangential_length=self.tangential_length)
-        keep_floats(self)
 
     @cached_property
     def _wall(self) -> RepulsiveZone:
@@ -77,12 +71,12 @@ class FrictionalRepulsiveZone:
         """Length over which the normal traction changes, nm."""
         return self.normal_length
 
-    def traction(self, gap: Array) -> Array:
+    def traction(self, gap: Gap) -> Array:
         """Return the traction (1 or 2, n), GPa, at a gap (2, n), nm."""
         normal = self._wall.traction(gap[:1])[0]
         return np.stack((normal, -normal * self._ratio(gap[1])[0]))[: len(self.exerts)]
 
-    def tangent(self, gap: Array) -> tuple[Array, Array]:
+    def tangent(self, gap: Gap) -> tuple[Array, Array]:
         """Return the traction (1 or 2, n), GPa, and its derivatives by both components (1 or 2, 2, n), GPa/nm."""
         (normal,), ((slope,),) = self._wall.tangent(gap[:1])
         ratio, ratio_slope = self._ratio(gap[1])
@@ -101,13 +95,14 @@ class FrictionalRepulsiveZone:
         """Return the law without friction."""
         return self.without_slip()
 
-    def _ratio(self, tangential_gap: Array) -> tuple[Array, Array]:
+    def _ratio(self, tangential_gap: Gap) -> tuple[Array, Array]:
         """Return the tangential traction over the pressure, and its derivative, 1/nm."""
         slip = np.clip(tangential_gap / self.tangential_length, -MAX_SLIP, MAX_SLIP)
         size = self.friction_coefficient * np.sqrt(2 * np.e) * np.exp(-(slip**2))
         return size * slip, size * (1 - 2 * slip**2) / self.tangential_length
 
 
+@checked
 @dataclass(frozen=True)
 class StiffMixedZone:
     """Mixed-mode cohesive zone whose repulsion keeps its stiffness as both works of separation fall.
@@ -128,18 +123,13 @@ class StiffMixedZone:
         Characteristic lengths δn and δt, nm.
     """
 
-    work_of_separation: float
-    contact_stiffness: float
-    work_ratio: float = 0.0
-    normal_length: float = 1.0
-    tangential_length: float = 1.0
+    work_of_separation: Work
+    contact_stiffness: Stiffness
+    work_ratio: NotNegative = 0.0
+    normal_length: Length = 1.0
+    tangential_length: Length = 1.0
     reads = frozenset({"n", "t"})
     traits = frozenset({Trait.SMOOTH, Trait.NON_CONSERVATIVE})
-
-    def __post_init__(self) -> None:
-        check_positive("GPa/nm", contact_stiffness=self.contact_stiffness)
-        CohesiveZone.__post_init__(self._open)
-        keep_floats(self)
 
     @cached_property
     def _open(self) -> CohesiveZone:
@@ -171,13 +161,13 @@ class StiffMixedZone:
         """Length over which the normal traction changes, nm."""
         return self.normal_length
 
-    def traction(self, gap: Array) -> Array:
+    def traction(self, gap: Gap) -> Array:
         """Return the traction (1 or 2, n), GPa, at a gap (2, n), nm."""
         traction = self._open.traction(gap)
         traction[0] = np.where(gap[0] < 0, self._wall.traction(gap[:1])[0], traction[0])
         return traction
 
-    def tangent(self, gap: Array) -> tuple[Array, Array]:
+    def tangent(self, gap: Gap) -> tuple[Array, Array]:
         """Return the traction (1 or 2, n), GPa, and its derivatives by both components (1 or 2, 2, n), GPa/nm."""
         traction, derivative = self._open.tangent(gap)
         wall, (slope,) = self._wall.tangent(gap[:1])

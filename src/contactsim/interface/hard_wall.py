@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from contactsim.errors import POSITIVE, InputError, is_positive, keep_floats
+from contactsim.arguments import Modulus, checked
 from contactsim.traits import Trait
 
 
+@checked
 @dataclass(frozen=True)
 class HardWall:
     """Impenetrability (Section 2.3): gap ≥ 0, pressure ≥ 0, and one of them is zero at each point.
@@ -27,12 +28,7 @@ class HardWall:
         For a hardness that is not positive.
     """
 
-    hardness: float | None = None
+    hardness: Modulus | None = None
     reads = frozenset({"n"})
     exerts = frozenset({"n"})
     traits = frozenset({Trait.WALL})
-
-    def __post_init__(self) -> None:
-        if not (self.hardness is None or is_positive(self.hardness)):
-            raise InputError("hardness", self.hardness, f"{POSITIVE}, in GPa")
-        keep_floats(self)

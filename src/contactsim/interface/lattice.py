@@ -18,8 +18,9 @@ from functools import cached_property
 
 import numpy as np
 
+from contactsim.arguments import Gap, Heights, Length, NotNegative, Positive, checked
 from contactsim.elasticity.base import Elasticity
-from contactsim.errors import POSITIVE, InputError, is_number, is_positive, keep_floats
+from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.interface.base import Law, potential
 from contactsim.traits import Trait
@@ -110,24 +111,24 @@ class LatticeInteraction:
         """Shortest length over which the traction changes with the tangential gap, nm."""
         return self.law.tangential_length
 
-    def traction(self, gap: Array) -> Array:
+    def traction(self, gap: Gap) -> Array:
         """Return the traction (exerts, n), GPa, at a gap (reads, n), nm."""
         near, springs = self._spring_gaps(gap)
         return self._sum_springs(self.law.traction(springs), near, gap.shape[1])
 
-    def tangent(self, gap: Array) -> tuple[Array, Array]:
+    def tangent(self, gap: Gap) -> tuple[Array, Array]:
         """Return the traction (exerts, n), GPa, and its derivatives (exerts, reads, n), GPa/nm."""
         near, springs = self._spring_gaps(gap)
         traction, derivative = self.law.tangent(springs)
         points = gap.shape[1]
         return self._sum_springs(traction, near, points), self._sum_springs(derivative, near, points)
 
-    def energy(self, gap: Array) -> Array:
+    def energy(self, gap: Gap) -> Array:
         """Return the sum of the springs' potentials (n,), N/m; the law must have one."""
         near, springs = self._spring_gaps(gap)
         return self._sum_springs(potential(self.law, springs), near, gap.shape[1])
 
-    def lower_traction(self, gap: Array) -> Array:
+    def lower_traction(self, gap: Gap) -> Array:
         """Return the traction on the lower surface (exerts, n), GPa: at each site the opposite of its springs.
 
         Sites between points of the mesh are shared among these points by Fourier interpolation.
@@ -142,11 +143,11 @@ class LatticeInteraction:
             total -= self._shift(of_site, site)
         return total
 
-    def _nearest_site(self, gap: Array) -> Array:
+    def _nearest_site(self, gap: Gap) -> Array:
         """Return the nearest site of the lower lattice (n,), counted from the one opposite in the beginning."""
         return np.rint(gap[1] / self.lattice_constant)
 
-    def _spring_gaps(self, gap: Array) -> tuple[Array, Array]:
+    def _spring_gaps(self, gap: Gap) -> tuple[Array, Array]:
         """Return the points that have springs (near,), and the gap of each spring (reads, sites × near)."""
         smallest = gap[0] if self.lower is None else gap[0] + self.lower - self.lower.max()
         near = np.flatnonzero(smallest <= self.max_gap)
@@ -182,6 +183,7 @@ class LatticeInteraction:
         return np.fft.irfft(coefficients, values.shape[-1])
 
 
+@checked
 @dataclass(frozen=True)
 class Lattice:
     """Springs from each site of the upper surface to those of a rigid lattice below (Eqs 6.2-6.3).
@@ -200,22 +202,11 @@ class Lattice:
         Factor of each spring's traction (thesis: 1).
     """
 
-    lattice_constant: float
-    tangential_cutoff: float = 5.0
-    normal_cutoff: float = 40.0
-    weight: float = 1.0
+    lattice_constant: Length
+    tangential_cutoff: NotNegative = 5.0
+    normal_cutoff: Positive = 40.0
+    weight: Positive = 1.0
     refuses = frozenset({Trait.SURFACE, Trait.WALL})
-
-    def __post_init__(self) -> None:
-        if not (is_number(self.tangential_cutoff) and self.tangential_cutoff >= 0):
-            allowed = f"0 or {POSITIVE}, in tangential lengths"
-            raise InputError("tangential_cutoff", self.tangential_cutoff, allowed)
-        units = {"lattice_constant": "nm", "normal_cutoff": "normal lengths", "weight": "parts"}
-        values = {name: value for name, value in vars(self).items() if name in units}
-        for name, value in values.items():
-            if not is_positive(value):
-                raise InputError(name, value, f"{POSITIVE}, in {units[name]}")
-        keep_floats(self)
 
     def check(
         self, lower: Elasticity | None, upper: Elasticity | None, traits: frozenset[Trait], laws: tuple[Law, ...]
@@ -232,7 +223,7 @@ class Lattice:
                     "effects", law, "laws that read the tangential gap, as springs to other sites have one"
                 )
 
-    def join(self, law: Law, lower: Array, length: float) -> LatticeInteraction:
+    def join(self, law: Law, lower: Heights, length: float) -> LatticeInteraction:
         """Return the springs as one law; see `Pairing.join`."""
         sites = math.ceil(self.tangential_cutoff * law.tangential_length / self.lattice_constant)
         if sites > MAX_SITES:
@@ -243,6 +234,6 @@ class Lattice:
         max_gap = self.normal_cutoff * law.interaction_range
         return LatticeInteraction(law, offsets, self.lattice_constant, max_gap, self.weight, heights, length)
 
-    def offset(self, gap: Array) -> Array:
+    def offset(self, gap: Gap) -> Array:
         """Return the tangential gap (n,), nm, to the nearest site; gap: (2, n), nm."""
         return gap[1] - self.lattice_constant * np.rint(gap[1] / self.lattice_constant)

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf
 
-from contactsim.errors import keep_floats
-from contactsim.interface.base import check_positive
+from contactsim.arguments import Length, Work
 from contactsim.traits import Trait
 
 
@@ -22,17 +21,12 @@ class NormalLaw:
         Characteristic length δn, nm.
     """
 
-    work_of_separation: float
-    normal_length: float = 1.0
+    work_of_separation: Work
+    normal_length: Length = 1.0
     reads = frozenset({"n"})
     exerts = frozenset({"n"})
     traits = frozenset({Trait.SMOOTH})
     tangential_length = inf
-
-    def __post_init__(self) -> None:
-        check_positive("N/m", work_of_separation=self.work_of_separation)
-        check_positive("nm", normal_length=self.normal_length)
-        keep_floats(self)
 
     @property
     def stiffness(self) -> float:

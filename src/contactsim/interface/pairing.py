@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import Protocol
 
+from contactsim.arguments import Gap, Heights, checked
 from contactsim.elasticity.base import Elasticity
 from contactsim.grid import Array
 from contactsim.interface.base import Law
@@ -24,7 +25,7 @@ class Pairing(Protocol):
     ) -> None:
         """Raise an `InputError` for bodies (None is rigid) or effects that cannot be paired so."""
 
-    def join(self, law: Law, lower: Array, length: float) -> Law:
+    def join(self, law: Law, lower: Heights, length: float) -> Law:
         """Return the law between two surfaces.
 
         Parameters
@@ -37,10 +38,11 @@ class Pairing(Protocol):
             Period along x, nm.
         """
 
-    def offset(self, gap: Array) -> Array:
+    def offset(self, gap: Gap) -> Array:
         """Return the tangential gap (n,), nm, between points that face each other; gap: (2, n), nm."""
 
 
+@checked
 @dataclass(frozen=True)
 class Aligned:
     """Each point faces the point that was opposite in the beginning."""
@@ -52,11 +54,11 @@ class Aligned:
     ) -> None:
         """Accept every scene."""
 
-    def join(self, law: Law, lower: Array, length: float) -> Law:
+    def join(self, law: Law, lower: Heights, length: float) -> Law:
         """Return the law itself."""
         return law
 
-    def offset(self, gap: Array) -> Array:
+    def offset(self, gap: Gap) -> Array:
         """Return the tangential gap itself (n,), nm."""
         return gap[1]
 

@@ -12,14 +12,14 @@ from math import inf
 
 import numpy as np
 
-from contactsim.errors import keep_floats
+from contactsim.arguments import Gap, Length, Stiffness, Work, checked
 from contactsim.grid import Array
-from contactsim.interface.base import check_positive
 from contactsim.interface.cohesive_zone import NormalCohesiveZone
 from contactsim.interface.normal_law import NormalLaw
 from contactsim.traits import Trait
 
 
+@checked
 @dataclass(frozen=True)
 class RepulsiveZone(NormalLaw):
     """Eq. 5.3 without its pull: the normal traction under overlap, and zero where the gap is open.
@@ -41,24 +41,30 @@ class RepulsiveZone(NormalLaw):
         return NormalCohesiveZone(self.work_of_separation, self.normal_length)
 
     @property
+    def peak(self) -> float:
+        """Gap up to which the traction rises, nm."""
+        return 0.0
+
+    @property
     def strength(self) -> float:
         """Largest traction φn/(e δn) of the law with its pull, GPa."""
         return self._whole.strength
 
-    def traction(self, gap: Array) -> Array:
+    def traction(self, gap: Gap) -> Array:
         """Return the traction (1, n), GPa, at a gap (1, n), nm."""
         return np.where(gap < 0, self._whole.traction(gap), 0.0)
 
-    def tangent(self, gap: Array) -> tuple[Array, Array]:
+    def tangent(self, gap: Gap) -> tuple[Array, Array]:
         """Return the traction (1, n), GPa, and its derivative (1, 1, n), GPa/nm."""
         traction, derivative = self._whole.tangent(gap)
         return np.where(gap < 0, traction, 0.0), np.where(gap < 0, derivative, 0.0)
 
-    def energy(self, gap: Array) -> Array:
+    def energy(self, gap: Gap) -> Array:
         """Return the potential φn - φn (1 + Δn/δn) exp(-Δn/δn) under overlap, else zero, (n,), N/m."""
         return np.where(gap[0] < 0, self.work_of_separation + self._whole.energy(gap), 0.0)
 
 
+@checked
 @dataclass(frozen=True)
 class StiffCohesiveZone:
     """Cohesive zone whose repulsion keeps its stiffness as the work of separation falls.
@@ -77,19 +83,13 @@ class StiffCohesiveZone:
         Characteristic length δn, nm.
     """
 
-    work_of_separation: float
-    contact_stiffness: float
-    normal_length: float = 1.0
+    work_of_separation: Work
+    contact_stiffness: Stiffness
+    normal_length: Length = 1.0
     reads = frozenset({"n"})
     exerts = frozenset({"n"})
     traits = frozenset({Trait.SMOOTH})
     tangential_length = inf
-
-    def __post_init__(self) -> None:
-        check_positive("N/m", work_of_separation=self.work_of_separation)
-        check_positive("GPa/nm", contact_stiffness=self.contact_stiffness)
-        check_positive("nm", normal_length=self.normal_length)
-        keep_floats(self)
 
     @cached_property
     def _pull(self) -> NormalCohesiveZone:
@@ -107,6 +107,11 @@ class StiffCohesiveZone:
         return self._pull.strength
 
     @property
+    def peak(self) -> float:
+        """Gap up to which the traction rises, nm."""
+        return self.normal_length
+
+    @property
     def stiffness(self) -> float:
         """Larger one of the tangents on both sides of zero gap, GPa/nm."""
         return max(self.contact_stiffness, self._pull.stiffness)
@@ -116,16 +121,16 @@ class StiffCohesiveZone:
         """Length over which the traction changes, nm."""
         return self.normal_length
 
-    def traction(self, gap: Array) -> Array:
+    def traction(self, gap: Gap) -> Array:
         """Return the traction (1, n), GPa, at a gap (1, n), nm."""
         return np.where(gap < 0, self._wall.traction(gap), self._pull.traction(gap))
 
-    def tangent(self, gap: Array) -> tuple[Array, Array]:
+    def tangent(self, gap: Gap) -> tuple[Array, Array]:
         """Return the traction (1, n), GPa, and its derivative (1, 1, n), GPa/nm; that of the pull at zero gap."""
         parts = zip(self._wall.tangent(gap), self._pull.tangent(gap), strict=True)
         traction, derivative = (np.where(gap < 0, wall, pull) for wall, pull in parts)
         return traction, derivative
 
-    def energy(self, gap: Array) -> Array:
+    def energy(self, gap: Gap) -> Array:
         """Return the potential (n,), N/m, at a gap (1, n), nm; -φn at zero gap."""
         return self._wall.energy(gap) + self._pull.energy(np.maximum(gap, 0.0))

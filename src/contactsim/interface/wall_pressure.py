@@ -12,15 +12,17 @@ P. Alart and A. Curnier, Comput. Methods Appl. Mech. Eng. 92, 353 (1991), doi:10
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from contactsim.grid import Array
 
-BODY_RATIO, LAW_RATIO = 0.5, 3.0
+BODY_RATIO, LAW_RATIO = 4.0, 3.0
 """Least stiffness by which overlap corrects the pressure, over the largest one of the bodies, and over that of the
 laws, which pull the wall's springs apart. A larger one needs fewer corrections, and more iterations for each."""
+EDGE_RATIO = 0.5
+"""The same over the largest one of the bodies, for a spring that places the edge of contact between points."""
 
 
 @dataclass(frozen=True)
@@ -33,10 +35,13 @@ class WallPressure:
         Pressure, GPa, (n,); never negative.
     stiffness
         Pressure by which an overlap corrects it, GPa/nm.
+    edge_stiffness
+        Stiffness of the wall as a spring, which places the edge of contact between points, GPa/nm.
     """
 
     values: Array
     stiffness: float
+    edge_stiffness: float
 
     @classmethod
     def zero(cls, points: int, body_stiffness: Array, law_stiffness: float) -> WallPressure:
@@ -44,8 +49,8 @@ class WallPressure:
 
         body_stiffness, law_stiffness: of the bodies at each wavenumber and of the laws, GPa/nm
         """
-        stiffness = max(BODY_RATIO * float(body_stiffness.max()), LAW_RATIO * law_stiffness)
-        return cls(np.zeros(points), stiffness)
+        stiffest, of_laws = float(body_stiffness.max()), LAW_RATIO * law_stiffness
+        return cls(np.zeros(points), max(BODY_RATIO * stiffest, of_laws), max(EDGE_RATIO * stiffest, of_laws))
 
     def push(self, gap: Array) -> Array:
         """Return the pressure (n,), GPa, with which the wall pushes at a gap (n,), nm."""
@@ -61,7 +66,7 @@ class WallPressure:
 
         stiffening: stiffness over that of this estimate
         """
-        return WallPressure(self.push(gap), stiffening * self.stiffness)
+        return replace(self, values=self.push(gap), stiffness=stiffening * self.stiffness)
 
     def largest_gap(self, gap: Array) -> float:
         """Return the largest size, or overlap, of a gap (n,), nm, where the wall pushes."""

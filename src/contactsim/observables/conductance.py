@@ -2,14 +2,33 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import ArrayLike
+from typing import Annotated
 
-from contactsim.errors import POSITIVE, InputError, is_positive
+import numpy as np
+
+from contactsim.arguments import Only, Positive, Values, checked
+from contactsim.errors import InputError, is_positive
 from contactsim.grid import Array
 
 
-def conductance(stiffness: ArrayLike, contact_modulus: float, conductivities: tuple[float, float]) -> float | Array:
+def _is_pair(value: object) -> bool:
+    """Return True for two positive numbers, one of which may be infinite."""
+    return isinstance(value, tuple | list) and len(value) == 2 and all(map(_conducts, value)) and min(value) < np.inf
+
+
+def _conducts(value: object) -> bool:
+    """Return True for a positive number or infinity."""
+    return is_positive(value) or (isinstance(value, float) and value == np.inf)
+
+
+Conductivities = Annotated[
+    tuple[float, float],
+    Annotated[object, Only("a pair of positive numbers, at most one of them infinite", _is_pair)],
+]
+
+
+@checked
+def conductance(stiffness: Values, contact_modulus: Positive, conductivities: Conductivities) -> float | Array:
     """Return the current or heat that flows through a contact for each difference far away, by Barber's relation.
 
     Stiffness and conductance are alike: both solve the same problem on the points in contact.
@@ -33,13 +52,8 @@ def conductance(stiffness: ArrayLike, contact_modulus: float, conductivities: tu
     ----------
     J. R. Barber, Proc. R. Soc. Lond. A 459, 53 (2003).
     """
-    if not is_positive(contact_modulus):
-        raise InputError("contact_modulus", contact_modulus, POSITIVE)
-    pair = tuple(conductivities) if isinstance(conductivities, tuple | list) else ()
-    if len(pair) != 2 or not all(is_positive(value) or value == np.inf for value in pair) or min(pair) == np.inf:
-        raise InputError("conductivities", conductivities, "a pair of positive numbers, at most one of them infinite")
     stiffnesses = np.asarray(stiffness, float)
     if (stiffnesses < 0).any():
         raise InputError("stiffness", stiffness, "0 or more")
-    values = 2 * stiffnesses / (contact_modulus * (1 / pair[0] + 1 / pair[1]))
+    values = 2 * stiffnesses / (contact_modulus * (1 / conductivities[0] + 1 / conductivities[1]))
     return values if values.ndim else float(values)

@@ -15,8 +15,13 @@ import xarray as xr
 from contactsim.grid import Array
 from contactsim.status import is_solved
 
-FOLD = ("fold_step", "fold_approach_before", "fold_approach_after", "fold_load_before", "fold_load_after")
-"""Numbers of each jump on a path of approach or load, on a line."""
+FOLD = (
+    "fold_step",
+    *("fold_approach_peak_before", "fold_approach_before", "fold_approach_after", "fold_approach_peak_after"),
+    *("fold_load_peak_before", "fold_load_before", "fold_load_after", "fold_load_peak_after"),
+)
+"""Numbers of each jump on a path of approach or load, on a line: on both sides, and at the largest pulls, within the
+step of the path, of the branches that end and begin there."""
 
 
 @dataclass(frozen=True)
@@ -40,9 +45,15 @@ class CurveNames:
 
 CURVES = {
     1: CurveNames("line_load", FOLD, "load"),
-    2: CurveNames("normal_force", (*FOLD[:3], "fold_force_before", "fold_force_after"), "force"),
+    2: CurveNames(
+        "normal_force",
+        (*FOLD[:5], "fold_force_peak_before", "fold_force_before", "fold_force_after", "fold_force_peak_after"),
+        "force",
+    ),
 }
 """By the number of dimensions: a load is that of a unit of thickness, N/m, a force that of a surface, nN."""
+PARABOLA_SAFETY = 2.0
+"""Least error of a smooth extreme over the change that a parabola makes: the curve bends more towards a fold."""
 ROUNDING = 1e-9
 """Difference of approach (nm) up to which a side of a jump is the state beside it."""
 
@@ -81,16 +92,20 @@ class LoadCurve:
         width = np.where(jump > 0, np.abs(np.diff(approach, prepend=approach[:1])), 0.0)
         places: list[int] = []
         inserted: list[tuple[float, float, float]] = []
-        for number, before, after, load_before, load_after in zip(*folds, strict=True):
+        for number, peak, before, after, peak_after, *loads in zip(*folds, strict=True):
             if np.isnan(number):
                 continue
             step = int(number)
             last = inserted[-1][0] if places and places[-1] == step else approach[step - 1]
+            if min(abs(peak - last), abs(peak - before)) > ROUNDING:
+                inserted.append((peak, loads[0], 0.0))
             if abs(before - last) > ROUNDING:
-                inserted.append((before, load_before, 0.0))
+                inserted.append((before, loads[1], 0.0))
             is_inside = abs(after - approach[step]) > ROUNDING
             if is_inside:
-                inserted.append((after, load_after, abs(after - before)))
+                inserted.append((after, loads[2], abs(after - before)))
+            if is_inside and min(abs(peak_after - after), abs(peak_after - approach[step])) > ROUNDING:
+                inserted.append((peak_after, loads[3], 0.0))
             width[step] = 0.0 if is_inside else abs(after - before)
             places += [step] * (len(inserted) - len(places))
         columns = np.array(inserted, float).reshape(-1, 3).T
@@ -107,13 +122,20 @@ class LoadCurve:
         The place has others on both sides. Beside a jump the extreme may lie anywhere within its width. After a jump
         the branch is smooth, and the error of the load is its slope over the width. Before a jump the branch ends at a
         fold, towards which the load grows like a square root. Neither error exceeds the change over the jump.
-        Elsewhere the curve turns smoothly, and the errors are the changes to the nearer of the states beside it.
+        Elsewhere the curve turns smoothly, and the errors are the changes to the nearer of the states beside it. The
+        errors are at least twice those to the vertex of a parabola through three places on a smooth branch.
         """
         begins, ends = self.width[place] > 0, self.width[place + 1] > 0
-        if not (begins or ends):
-            return self._smooth_errors(place)
-        error = (self._error_after_jump(place) if begins else 0.0) + (self._error_before_jump(place) if ends else 0.0)
-        return error, float(self.width[place] + self.width[place + 1])
+        if begins or ends:
+            load = self._error_after_jump(place) if begins else 0.0
+            load += self._error_before_jump(place) if ends else 0.0
+            approach = float(self.width[place] + self.width[place + 1])
+        else:
+            load, approach = self._smooth_errors(place)
+        for first in (place - 2, place - 1, place):
+            rise, distance = self._parabola(place, first)
+            load, approach = max(load, PARABOLA_SAFETY * rise), max(approach, PARABOLA_SAFETY * distance)
+        return load, approach
 
     def _smooth_errors(self, place: int) -> tuple[float, float]:
         """Return the least changes of load and of approach to the states beside a place."""
@@ -123,6 +145,25 @@ class LoadCurve:
             min(abs(float(values[place] - values[other])) for other in beside) for values in (self.load, self.approach)
         )
         return load, approach
+
+    def _parabola(self, place: int, first: int) -> tuple[float, float]:
+        """Return how far the vertex of a parabola through three places lies from an extreme, in load and approach.
+
+        Zero where it lies beyond the places beside the extreme, or a jump between the three. Around the extreme itself
+        the load is the change over half a step at least.
+        """
+        three = slice(max(first, 0), first + 3)
+        x, y = self.approach[three] - self.approach[place], self.load[three] - self.load[place]
+        if x.size < 3 or self.width[first + 1 : first + 3].any() or np.diff(x).prod() <= 0:
+            return 0.0, 0.0
+        slopes = np.diff(y) / np.diff(x)
+        curvature = float((slopes[1] - slopes[0]) / (x[2] - x[0]))
+        if not curvature > 0:
+            return 0.0, 0.0
+        vertex = float(x[0] + x[1] - slopes[0] / curvature) / 2
+        if first == place - 1:
+            return curvature * max(abs(vertex), min(abs(x[::2])) / 2) ** 2, abs(vertex)
+        return (curvature * vertex**2, abs(vertex)) if 0 < vertex / x[1] < 1 else (0.0, 0.0)
 
     def _error_after_jump(self, place: int) -> float:
         """Return the change of load that the slope of the next step makes over the width of the jump."""

@@ -3,16 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Annotated, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from contactsim.errors import InputError, Words
+from contactsim.arguments import Only, checked
 from contactsim.grid import Array
 
 AREA_EDGES = 2.0 ** np.arange(-30, 1)
 """Ends of the bins of areas of patches, over the area of the heights; the last is in the last bin."""
 AREA_BINS = np.sqrt(AREA_EDGES[1:] * AREA_EDGES[:-1])
 """Geometric middle of each bin."""
+
+Contact = Annotated[
+    NDArray[Any],
+    Only(
+        "an array of bool in 1D or 2D, such as `contact` of a result",
+        lambda contact: contact.dtype == bool and contact.ndim in (1, 2) and contact.size > 0,
+    ),
+]
 
 
 @dataclass(frozen=True)
@@ -50,7 +60,8 @@ class Patches:
         return {"patches": self.count, "largest_patch_share": share, "spanning": float(any(self.spans))}
 
 
-def find_patches(contact: Array, periodic: bool = True) -> Patches:
+@checked
+def find_patches(contact: Contact, periodic: bool = True) -> Patches:
     """Return the patches of a contact set.
 
     Parameters
@@ -60,10 +71,6 @@ def find_patches(contact: Array, periodic: bool = True) -> Patches:
     periodic : bool
         Whether patches go on at the other end.
     """
-    contact = np.asarray(contact)
-    if contact.dtype != bool or contact.ndim not in (1, 2):
-        value = Words(f"shape {contact.shape} of {contact.dtype}")
-        raise InputError("contact", value, "an array of bool in 1D or 2D, such as `contact` of a result")
     from scipy.ndimage import label  # takes longer to import than most contacts to label
 
     labels_inside, count = label(contact)

@@ -7,15 +7,17 @@ interpolated traction.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from contactsim.arguments import Positive, checked
 from contactsim.contact.cohesive import CohesiveProblem
-from contactsim.contact.steps import LoadStep
-from contactsim.errors import POSITIVE, InputError, is_positive, keep_floats
-from contactsim.paths.continuation import Continuation
+from contactsim.contact.steps import LoadStep, Steps
+from contactsim.errors import InputError
+from contactsim.grid import OutOfWorkError
+from contactsim.paths.continuation import STATE_BUDGET, Continuation
 from contactsim.paths.increment_control import ROUNDING, IncrementController
 from contactsim.paths.jumps import FOLD_WIDTH, Jump
 from contactsim.paths.legs import Leg, leg_end
@@ -30,6 +32,7 @@ MIN_SHARE = 1e-9
 """Smallest increment that may be asked for, over the range of the path."""
 
 
+@checked
 @dataclass(frozen=True)
 class Adaptive:
     """Increments that keep the error of the predictions constant.
@@ -43,6 +46,9 @@ class Adaptive:
         default.
     fold_width
         Largest distance (nm) that the load moves the surface between both sides of a jump: the step is divided.
+    budget
+        Transforms for each requested state; see `Requested`. Where no work is left to locate jumps, the requested steps
+        are the increments.
 
     Raises
     ------
@@ -50,22 +56,18 @@ class Adaptive:
         If a value is not positive, or `least` exceeds `most`.
     """
 
-    error: float | None = None
-    least: float | None = None
-    most: float | None = None
-    fold_width: float = FOLD_WIDTH
+    error: Positive | None = None
+    least: Positive | None = None
+    most: Positive | None = None
+    fold_width: Positive = FOLD_WIDTH
+    budget: Positive = STATE_BUDGET
     needs_period = False
 
     def __post_init__(self) -> None:
-        for name in ("error", "least", "most", "fold_width"):
-            value = getattr(self, name)
-            if value is not None and not is_positive(value):
-                raise InputError(name, value, POSITIVE)
         if self.least is not None and self.most is not None and self.least > self.most:
             raise InputError("least", self.least, f"at most the longest increment, {self.most:g}")
-        keep_floats(self)
 
-    def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
+    def check(self, points: int, steps: Steps, solver: CohesiveSolver) -> None:
         """Raise InputError for a solver without predictions, and for a mean pressure without bounds."""
         if not solver.uses_guess:
             raise InputError("increments", "adaptive", f"requested: {type(solver).__name__} makes no predictions")
@@ -76,13 +78,7 @@ class Adaptive:
         if self.least is not None and self.least < MIN_SHARE * reach:
             raise InputError("least", self.least, f"at least {MIN_SHARE:g} of the path's {reach:g}")
 
-    def coarsened(self, factor: int) -> Adaptive:
-        """Return the same increments: they do not depend on the grid."""
-        return self
-
-    def follow(
-        self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
-    ) -> Iterator[PathState]:
+    def follow(self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Steps) -> Iterator[PathState]:
         """Yield the states at all steps, in order, interpolated between solved states."""
         self.check(problem.grid.size, steps, solver)
         # increments that follow the error of the predictions need no other bound of it
@@ -90,7 +86,12 @@ class Adaptive:
         while begin < len(steps):
             end = leg_end(steps, begin, path.parameter(steps[begin]))
             transforms = problem.counter.transforms
-            leg = self._solve_leg(path, steps[begin:end])
+            leg = Leg(steps[begin:end])
+            try:
+                with problem.counter.granted(self.budget * (end - begin)):
+                    self._solve_leg(path, leg)
+            except OutOfWorkError:
+                leg.status = Status.OVER_BUDGET
             transforms = problem.counter.transforms - transforms
             lost = False
             for count, step in enumerate(leg.steps):
@@ -115,35 +116,42 @@ class Adaptive:
         """Return the allowed error of a prediction, nm."""
         return self.error or DEFAULT_ERROR * problem.interaction_range
 
-    def _solve_leg(self, path: Continuation, steps: Sequence[LoadStep]) -> Leg:
+    def _solve_leg(self, path: Continuation, leg: Leg) -> None:
         """Solve states from the current one to the last step of a leg.
 
         Where continuation fails, the path goes on to the next requested step if that is within the increment. A jump is
         then found in the same step as without adaptive increments.
         """
-        leg, controller = Leg(steps), self._controller(path.problem)
+        controller, steps = self._controller(path.problem), leg.steps
+        path.begin(len(steps))
         first, last = steps[0], steps[-1]
         parameter = path.parameter(first)
         if parameter is not None and path.current is not None:
             leg.segments[0].add(parameter, path.current[1])
         while parameter != last.value:
             goal = first.value if parameter is None else controller.propose(parameter, last.value)
+            adapts = path.may_locate
+            if not adapts:
+                goal = next((step.value for step in steps if _is_between(parameter, step.value, last.value)), goal)
+            may_shrink = adapts and parameter is not None and controller.can_shrink
             jumps: tuple[Jump, ...] = ()
             state = path.continue_to(replace(first, value=goal))
             leg.iterations += state.iterations
             order = path.history.order
             error = state.largest_change if state.is_stable and path.history.parameters else np.inf
-            if parameter is not None and controller.rejects(error):
+            if may_shrink and controller.rejects(error):
                 controller.shrink()
                 continue
             flowed = not path.is_on_branch(state)
-            if not flowed and parameter is not None and controller.can_shrink and path.passes_instability(first, state):
+            if not flowed and may_shrink and path.passes_instability(first, state):
                 controller.shrink()
                 continue
             if flowed:
                 goal = next((step.value for step in steps if _is_between(parameter, step.value, goal)), goal)
                 state, jumps, iterations = path.advance_to(replace(first, value=goal))
                 leg.iterations += iterations
+                if path.passed_unlocated and leg.unlocated is None:
+                    leg.unlocated = goal
             else:
                 path.accept(replace(first, value=goal), state, False)
             if not state.is_stable:
@@ -152,7 +160,6 @@ class Adaptive:
             leg.add(goal, state, jumps)
             controller.accept(error, order, flowed)
             parameter = goal
-        return leg
 
     def _requested_state(
         self, path: Continuation, leg: Leg, step: LoadStep, status: Status, cost: tuple[int, float]
@@ -165,13 +172,17 @@ class Adaptive:
         segment = segments[-1]
         is_after_end = direction * (step.value - segment.parameters[-1]) > 0  # by rounding
         state = segment.interpolate(problem, segment.parameters[-1] if is_after_end else step.value)
-        if state.residual > problem.tolerance + self._allowed_error(problem) * problem.law_stiffness / problem.strength:
+        allowed = problem.tolerance + self._allowed_error(problem) * problem.law_stiffness / problem.strength
+        off_load = 0.0 if problem.load is None else abs(float(state.traction[0].mean()) + problem.load)
+        if state.residual > allowed or off_load > problem.tolerance * problem.strength:
             before = problem.counter.transforms
             state = path.solver.solve_near(problem, state.displacement, path.solver.new_memory())
             cost = cost[0] + state.iterations, cost[1] + problem.counter.transforms - before
         jumps = leg.jumps_before(step.value)
-        distance = sum(jump.distance for jump in jumps)
-        return PathState(step, problem, state.displacement, state.status, state.residual, distance, *cost, state, jumps)
+        distance, found = sum(jump.distance for jump in jumps), state.status
+        if leg.unlocated is not None and found.solved and direction * (step.value - leg.unlocated) >= 0:
+            found = Status.UNLOCATED
+        return PathState(step, problem, state.displacement, found, state.residual, distance, *cost, state, jumps)
 
 
 def _is_between(parameter: float | None, value: float, goal: float) -> bool:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from contactsim.arguments import Positive, checked
 from contactsim.contact.loading import LoadPath, load_step
 from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.contact.scene import Body, Scene
 from contactsim.contact.steps import LoadStep
-from contactsim.grid import Array
+from contactsim.grid import Array, Threads
 from contactsim.solvers.base import Result, pressed_scene, solve
 from contactsim.solvers.registry import default_solver
 from contactsim.surfaces.shapes import Flat
@@ -21,7 +22,8 @@ THICK = 10.0
 """Compliance of a layer as a whole, over that to its longest wave, from which on its punch is given a load."""
 
 
-def contact_stiffness(result: Result, *, tolerance: float = 1e-7, threads: int = 1) -> float:
+@checked
+def contact_stiffness(result: Result, *, tolerance: Positive = 1e-7, threads: Threads = 1) -> float:
     """Return how fast the mean pressure rises with the approach.
 
     A small further approach moves all points in contact alike, as a flat punch of the shape of the contact does. The

@@ -2,7 +2,7 @@
 
 The branch is that of a slow experiment: the equilibrium that the overdamped flow reaches from the last stable state.
 Where continuation fails, the flow leads on, and the step is divided until it follows the branch or shows a jump. The
-jump of one contact among many is not located.
+jump of one contact among many is located where the pull may be the largest since the approach turned.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ import numpy as np
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.steps import LoadStep
 from contactsim.contact.wall import hold_wall, is_beyond_closure
-from contactsim.grid import Array
+from contactsim.grid import Array, OutOfWorkError
 from contactsim.paths.extrapolation import MAX_AMPLIFICATION, History
-from contactsim.paths.jumps import FOLD_WIDTH, Jump, JumpCriterion
+from contactsim.paths.jumps import FOLD_WIDTH, Jump, JumpCriterion, Side, pull_of
 from contactsim.paths.state import PathState
 from contactsim.paths.step_division import Division, divide_step
 from contactsim.solvers.cohesive.base import CohesiveSolver, Equilibrium
@@ -35,6 +35,10 @@ FAILED_STEPS = 2
 again before the next jump."""
 MAX_RESTLESS = 2
 """Motions that do not come to rest, after which a step has no state."""
+STATE_BUDGET = 50_000.0
+"""Transforms that a state may take by default."""
+LOCATING_SHARES = 0.8, 0.04
+"""Parts of them that a path may take until its jumps are not located any more: once, and again for each state."""
 MAX_FAILURES = 3
 """Steps in a row without a solution, each sought from the last stable state, after which a path ends."""
 
@@ -51,9 +55,11 @@ class Continuation:
     fold_width
         Largest distance (nm) that the load moves the surface between both sides of a jump.
     divides
-        If True, steps that continuation fails to take are divided, unless many contacts jump.
+        If True, steps that continuation fails to take are divided as `divide_step` says.
     max_amplification
         Largest ratio of a prediction's error to those of the states that it follows from.
+    budget
+        Transforms that a state may take.
     """
 
     def __init__(
@@ -63,7 +69,11 @@ class Continuation:
         fold_width: float = FOLD_WIDTH,
         divides: bool = True,
         max_amplification: float = MAX_AMPLIFICATION,
+        budget: float = STATE_BUDGET,
     ) -> None:
+        self._budget = budget
+        self._locating_end = problem.counter.spent + LOCATING_SHARES[0] * budget
+        self.passed_unlocated = False  # on the way to the current state
         self._divides = divides and solver.uses_guess
         if self._divides:
             problem = replace(problem, tolerance=min(problem.tolerance, MAX_DIVIDED_TOLERANCE))
@@ -73,8 +83,19 @@ class Continuation:
         self._failures = 0
         self._leaves_unstable = False  # the current state, under a control that has just begun
         self._memory = solver.new_memory()
-        self.current: tuple[LoadStep, Equilibrium] | None = None  # step and state accepted last
+        self.current: Side | None = None  # step and state accepted last
+        self._peak: Side | None = None  # those with the largest pull since a step of the path began, or a jump
         self.jumps = JumpCriterion(problem, fold_width)
+
+    def begin(self, states: int) -> None:
+        """Begin the way to so many requested states, and grant the work to locate the jumps on it."""
+        self._locating_end += LOCATING_SHARES[1] * self._budget * states
+        self.passed_unlocated = False
+
+    @property
+    def may_locate(self) -> bool:
+        """True as long as there is work left to locate jumps, and to adapt increments."""
+        return self.problem.counter.spent <= self._locating_end
 
     def parameter(self, target: LoadStep) -> float | None:
         """Return the load parameter of the current state, under the control of a target step; None at the beginning.
@@ -175,7 +196,7 @@ class Continuation:
         jump = None
         distance, leaves = state.largest_change, self._leaves_unstable
         if flowed and self.current is not None and self.jumps.is_jump(step, increment, distance, leaves):
-            jump = Jump(*self.current, step, state, distance)
+            jump = Jump(*self.current, step, state, distance, self._peak or self.current, (step, state))
         self._leaves_unstable = False
         if self.current is not None and not jump and 0 < increment < np.inf:
             self.jumps.learn(self.current, (step, state), state.displacement - self.displacement)
@@ -183,7 +204,11 @@ class Continuation:
             self.history.restart(step.value, state.displacement)
         else:
             self.history.add(step.value, state.displacement)
+        if self.current is not None and step.control is Trait.APPROACH:
+            self.jumps.watch(self.current, (step, state))
         self.displacement, self.current = state.displacement, (step, state)
+        if jump or self._peak is None or pull_of(self.current) > pull_of(self._peak):
+            self._peak = self.current
         return jump
 
     def advance(self, step: LoadStep) -> PathState:
@@ -192,13 +217,25 @@ class Continuation:
         if self._failures == MAX_FAILURES or is_beyond_closure(here):  # the path may come back from beyond closure
             status = Status.SKIPPED if self._failures == MAX_FAILURES else Status.NO_EQUILIBRIUM
             return PathState(step, here, self.displacement, status, np.nan, 0.0, 0, 0.0)
+        self.begin(1)
         before = counter.transforms
-        state, jumps, iterations = self.advance_to(step)
+        try:
+            with counter.granted(self._budget):
+                state, jumps, iterations = self.advance_to(step)
+        except OutOfWorkError:
+            self.end()
+            cost = counter.transforms - before
+            return PathState(step, here, self.displacement, Status.OVER_BUDGET, np.nan, 0.0, 0, cost)
         is_final = state.status in (Status.NO_EQUILIBRIUM, Status.NON_FINITE)
         self._failures = 0 if state.is_stable else MAX_FAILURES if is_final else self._failures + 1
         distance, cost = sum(jump.distance for jump in jumps), counter.transforms - before
-        numbers = state.status, state.residual, distance, iterations, cost
+        status = Status.UNLOCATED if state.is_stable and self.passed_unlocated else state.status
+        numbers = status, state.residual, distance, iterations, cost
         return PathState(step, here, state.displacement, *numbers, state, jumps)
+
+    def end(self) -> None:
+        """Skip all steps that follow."""
+        self._failures = MAX_FAILURES
 
     def advance_to(self, step: LoadStep) -> tuple[Equilibrium, tuple[Jump, ...], int]:
         """Advance to a step; return the state, the jumps on the way, and the iterations.
@@ -207,12 +244,14 @@ class Continuation:
         begins, with the exceptions of `divide_step`. A motion that does not come to rest is tried twice.
         """
         goals, divides, division, iterations, restless = [step.value], self._divides, Division.NONE, 0, 0
+        self._peak = self.current
         jumps: list[Jump] = []
         beyond: set[float] = set()  # goals beyond the end of the branch
         while True:
             goal = replace(step, value=goals[-1])
             flowed = True
-            increment = self._divisible_increment(goal) if divides and len(goals) <= MAX_HALVINGS else 0.0
+            hiding = self._divisible_increment(goal) if divides and len(goals) <= MAX_HALVINGS else 0.0
+            increment = hiding if self.may_locate else 0.0
             if self.solver.uses_guess and not (increment and goal.value in beyond):
                 state = self.continue_to(goal)
                 iterations += state.iterations
@@ -227,10 +266,11 @@ class Continuation:
                     division = divide_step(self.jumps, last, (goal, state)) if last else Division.LOCATE
                     restless += state.status is Status.NO_REST
                     if restless == MAX_RESTLESS:
-                        return state, tuple(jumps), iterations
+                        return state, self._with_last_peak(jumps), iterations
                 if increment and division is not Division.NONE:
                     goals.append(goals[-1] - increment / 2)
                     continue
+                self.passed_unlocated |= bool(hiding) and division is not Division.NONE
             if state.is_stable:
                 jumps += [jump for jump in [self.accept(goal, state, flowed)] if jump]
                 if flowed:
@@ -241,7 +281,11 @@ class Continuation:
                 continue
             goals.pop()
             if not goals:
-                return state, tuple(jumps), iterations
+                return state, self._with_last_peak(jumps), iterations
+
+    def _with_last_peak(self, jumps: list[Jump]) -> tuple[Jump, ...]:
+        """Return the jumps of a step, the last with the largest pull after it."""
+        return (*jumps[:-1], *(replace(jump, peak_after=self._peak or jump.peak_after) for jump in jumps[-1:]))
 
     def _divisible_increment(self, step: LoadStep) -> float:
         """Return the change of the load to a step, with its sign, where a jump may hide in it; else zero."""

@@ -10,10 +10,12 @@ import xarray as xr
 
 from contactsim.contact.problem_kind import ProblemKind
 from contactsim.errors import InputError
+from contactsim.grid import check_memory
 from contactsim.paths.options import Setup
 from contactsim.paths.reuse import Point, Reuse
 from contactsim.solvers.base import check_solver
 from contactsim.solvers.registry import default_solver
+from contactsim.surfaces.topography import MEASURED, Topography, is_gentle
 from contactsim.threads import limit_threads
 
 
@@ -70,7 +72,8 @@ def follow_path(setup: Setup, reuse: Reuse | None = None) -> xr.Dataset:
     Raises
     ------
     InputError
-        For an option that such a scene has no use for, or a solver that does not accept it.
+        For an option that such a scene has no use for, a solver that does not accept it, a grid that needs more memory
+        than is free, or measured heights that are too steep.
     """
     scene, options = setup.scene, setup.options
     unused = {name for names in OPTIONS.values() for name in names} - set(OPTIONS[scene.kind])
@@ -80,5 +83,9 @@ def follow_path(setup: Setup, reuse: Reuse | None = None) -> xr.Dataset:
             raise InputError(name, value, f"none with {PROBLEMS[scene.kind]}, only {used}")
     solver = default_solver(scene) if options.solver is None else options.solver
     check_solver(solver, scene)
+    check_memory(setup.points, scene.upper.surface.shape(setup.points), solver.fields * len(scene.components))
+    for name, body in {"upper": scene.upper, "lower": scene.lower}.items():
+        if isinstance(body.surface, Topography) and not is_gentle(body.surface):
+            raise InputError(name, body.surface, MEASURED)
     with limit_threads(options.threads):
         return path_driver(scene.kind).follow(setup, solver, reuse or Reuse())

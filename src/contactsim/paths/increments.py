@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any, Protocol
 
 from contactsim.contact.cohesive import CohesiveProblem
-from contactsim.contact.steps import LoadStep
+from contactsim.contact.steps import Steps
 from contactsim.paths.adaptive import Adaptive
 from contactsim.paths.nested import Nested
 from contactsim.paths.requested import Requested
@@ -22,17 +22,11 @@ class Increments(Protocol):
         """True where only heights that repeat can be followed."""
         ...
 
-    def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
+    def check(self, points: int, steps: Steps, solver: CohesiveSolver) -> None:
         """Raise InputError for a grid, a path or a solver that these increments do not suit."""
         ...
 
-    def coarsened(self, factor: int) -> Increments:
-        """Return the same increments for a grid that many times coarser."""
-        ...
-
-    def follow(
-        self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
-    ) -> Iterator[PathState]:
+    def follow(self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Steps) -> Iterator[PathState]:
         """Yield the states at all steps, in order."""
         ...
 

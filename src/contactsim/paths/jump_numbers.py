@@ -12,7 +12,7 @@ from contactsim.grid import Array
 from contactsim.observables.adhesion import contact_length
 from contactsim.observables.load_curve import CURVES
 from contactsim.observables.sliding import TOUCHING, slide_observables
-from contactsim.paths.jumps import Jump
+from contactsim.paths.jumps import Jump, pull_of
 from contactsim.solvers.cohesive.base import Equilibrium
 
 
@@ -24,14 +24,14 @@ def fold_numbers(problem: CohesiveProblem, jump: Jump, step: int) -> dict[str, f
     problem
         The problem that the path solves.
     jump
-        The jump, with the states on both sides.
+        The jump, with the states on both sides, and those with the largest pulls before and after it.
     step
         Number of the step of the path during which the jump came.
     """
     values: list[float] = [step]
-    sides = (jump.step_before, jump.before), (jump.step, jump.after)
+    sides = jump.peak_before, (jump.step_before, jump.before), (jump.step, jump.after), jump.peak_after
     values += [approach_of(problem.at(at), state.displacement) for at, state in sides]
-    values += [-float(state.traction[0].mean() * math.prod(problem.grid.lengths)) for _, state in sides]
+    values += [-pull_of(side) * math.prod(problem.grid.lengths) for side in sides]
     return dict(zip(CURVES[len(problem.grid.lengths)].folds, values, strict=True))
 
 

@@ -6,6 +6,7 @@ A jump is a motion that the load does not account for: the surface snaps into co
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
 import numpy as np
 
@@ -38,6 +39,9 @@ class Jump:
         Load step and state after the jump.
     distance
         Largest displacement of the surface, nm.
+    peak_before, peak_after
+        Load step and state with the largest pull since the step of the path began, or since the jump before; and until
+        the step of the path ends, if no other jump follows in it.
     """
 
     step_before: LoadStep
@@ -45,10 +49,17 @@ class Jump:
     step: LoadStep
     after: Equilibrium = field(repr=False)
     distance: float
+    peak_before: Side = field(repr=False)
+    peak_after: Side = field(repr=False)
 
 
-Side = tuple[LoadStep, Equilibrium]
+Side: TypeAlias = tuple[LoadStep, Equilibrium]
 """Load step and state at one end of a step."""
+
+
+def pull_of(side: Side) -> float:
+    """Return the mean pull (GPa) of a state."""
+    return float(side[1].traction[0].mean())
 
 
 class JumpCriterion:
@@ -66,6 +77,25 @@ class JumpCriterion:
         self.problem, self._fold_width = problem, fold_width
         self._pace: float | None = None  # distance that the surface moved per mean pressure, nm/GPa
         self.rate = 0.0  # change of the traction per approach, GPa/nm
+        self._direction, self._largest_pull = 0.0, 0.0  # of the approach, and since it turned, GPa
+
+    def watch(self, before: Side, after: Side) -> None:
+        """Store the largest pull since the approach turned; before, after: both ends of a step."""
+        self._largest_pull = max(self._record(before, after), pull_of(after))
+        self._direction = float(np.sign(after[0].value - before[0].value))
+
+    def _record(self, before: Side, after: Side) -> float:
+        """Return the largest pull (GPa) from where the approach turned last to the beginning of a step, at least 0."""
+        turns = np.sign(after[0].value - before[0].value) != self._direction
+        return max(0.0, pull_of(before)) if turns else self._largest_pull
+
+    def may_pull_most(self, before: Side, after: Side) -> bool:
+        """Return True if the pull may be larger within a step of the approach than at any state since it turned.
+
+        Within the step it may exceed both ends by as much as it changed in a step before without a jump.
+        """
+        change = self.rate * abs(after[0].value - before[0].value)
+        return max(pull_of(before), pull_of(after)) + change >= self._record(before, after)
 
     def learn(self, before: Side, after: Side, change: Array) -> None:
         """Store how fast the surface and its traction change on the last smooth step.

@@ -24,6 +24,7 @@ class Leg:
     segments: list[Segment] = field(default_factory=lambda: [Segment()])
     iterations: int = 0
     status: Status = Status.CONVERGED
+    unlocated: float | None = None  # first parameter on the way to which jumps were not located
 
     @property
     def direction(self) -> int:

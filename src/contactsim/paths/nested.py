@@ -8,16 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 
+from contactsim.arguments import Only, Positive, checked
 from contactsim.contact.coarse_grid import coarsen, prolong
 from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.contact.pose_cohesive import check_tolerance
-from contactsim.contact.steps import LoadStep
-from contactsim.errors import InputError, is_whole, keep_floats, read_numbers
-from contactsim.grid import Array
-from contactsim.paths.continuation import Continuation
+from contactsim.contact.steps import LoadStep, Steps
+from contactsim.errors import InputError, is_whole
+from contactsim.grid import Array, OutOfWorkError
+from contactsim.paths.continuation import STATE_BUDGET, Continuation
 from contactsim.paths.state import PathState
 from contactsim.solvers.cohesive.base import CohesiveSolver
 from contactsim.solvers.cohesive.multipliers import fit_solver
@@ -28,7 +30,10 @@ FLOW_DISTANCE = 0.5
 ROUNDING = 1e-9
 """Largest difference (nm or GPa) between a step and the value that selects it."""
 
+PowerOfTwo = Annotated[int, Only("a power of two", lambda value: is_whole(value) and not int(value) & (int(value) - 1))]
 
+
+@checked
 @dataclass(frozen=True)
 class Nested:
     """Every increment on a coarse grid, then on an intermediate one; some states also on the full grid.
@@ -41,6 +46,8 @@ class Nested:
         Points along a side of the full grid over those of the coarse and of the intermediate grid; powers of two.
     coarse_tolerance, intermediate_tolerance
         Tolerances on these grids, in parts of the laws' strength.
+    budget
+        Transforms, as many as on the full grid, that a state may take on each grid; see `Requested`.
 
     Raises
     ------
@@ -49,26 +56,21 @@ class Nested:
     """
 
     full_grid_at: Sequence[float]
-    coarse_ratio: int = 16
-    intermediate_ratio: int = 4
+    coarse_ratio: PowerOfTwo = 16
+    intermediate_ratio: PowerOfTwo = 4
     coarse_tolerance: float = 1e-3
     intermediate_tolerance: float = 1e-4
+    budget: Positive = STATE_BUDGET
     needs_period = True
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "full_grid_at", read_numbers("full_grid_at", self.full_grid_at, least=0))
         for name in ("coarse_tolerance", "intermediate_tolerance"):
             check_tolerance(getattr(self, name), name)
-        for name in ("coarse_ratio", "intermediate_ratio"):
-            value = getattr(self, name)
-            if not is_whole(value) or int(value) & (int(value) - 1):
-                raise InputError(name, value, "a power of two")
         if self.intermediate_ratio > self.coarse_ratio:
             allowed = f"at most the ratio of the coarse grid, {self.coarse_ratio}"
             raise InputError("intermediate_ratio", self.intermediate_ratio, allowed)
-        keep_floats(self)
 
-    def check(self, points: int, steps: Sequence[LoadStep], solver: CohesiveSolver) -> None:
+    def check(self, points: int, steps: Steps, solver: CohesiveSolver) -> None:
         """Raise InputError for slides, for a grid that cannot be coarsened, and for values that are no steps."""
         if any(step.held is not None for step in steps):
             raise InputError("increments", "nested", "requested or adaptive, as the path slides")
@@ -80,34 +82,32 @@ class Nested:
         if missing:
             raise InputError("full_grid_at", missing, "steps of the path, which these are not")
 
-    def coarsened(self, factor: int) -> Nested:
-        """Return the same increments for a full grid that many times coarser."""
-        ratio = max(self.coarse_ratio // factor, 1)
-        return replace(self, coarse_ratio=ratio, intermediate_ratio=min(self.intermediate_ratio, ratio))
-
-    def follow(
-        self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
-    ) -> Iterator[PathState]:
+    def follow(self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Steps) -> Iterator[PathState]:
         """Yield the states at all steps, in order."""
         counter = problem.counter
         for points in problem.grid.shape:
             self.check(points, steps, solver)
         coarse_problem = coarsen(problem, self.coarse_ratio, self.coarse_tolerance)
         middle_problem = coarsen(problem, self.intermediate_ratio, self.intermediate_tolerance)
-        path = Continuation(coarse_problem, solver, divides=False)
+        path = Continuation(coarse_problem, solver, divides=False, budget=self.budget)
         middle_grid, full_grid = FinerGrid(middle_problem, solver), FinerGrid(problem, solver)
         coarse, middle = (np.zeros(level.unknowns, complex) for level in (coarse_problem, middle_problem))
         for step in steps:
             before = counter.transforms
             state = path.advance(step)
-            if state.status is Status.CONVERGED:
-                change = prolong(middle_problem, coarse_problem.grid, state.displacement - coarse)
-                refined = middle_grid.refine(state, middle + change)
-                if refined.status is Status.CONVERGED:
-                    coarse, middle = state.displacement, refined.displacement
-                state = refined
-            if state.status is Status.CONVERGED and self._needs_full_grid(step):
-                state = full_grid.refine(state, prolong(problem, middle_problem.grid, state.displacement))
+            try:
+                with counter.granted(2 * self.budget):
+                    if state.status.solved:
+                        change = prolong(middle_problem, coarse_problem.grid, state.displacement - coarse)
+                        refined = middle_grid.refine(state, middle + change)
+                        if refined.status.solved:
+                            coarse, middle = state.displacement, refined.displacement
+                        state = refined
+                    if state.status.solved and self._needs_full_grid(step):
+                        state = full_grid.refine(state, prolong(problem, middle_problem.grid, state.displacement))
+            except OutOfWorkError:
+                state = replace(state, status=Status.OVER_BUDGET)
+                path.end()
             yield replace(state, transforms=counter.transforms - before)
 
     def _needs_full_grid(self, step: LoadStep) -> bool:

@@ -38,7 +38,7 @@ class Accuracy:
 
     def __post_init__(self) -> None:
         if not 0 < self.error < 1:
-            raise InputError("accuracy", self.error, "a relative error, above 0 and below 1")
+            raise InputError("accuracy", self.error, "a relative error above 0 and below 1, such as 0.01 for 1 %")
 
 
 @dataclass(frozen=True)

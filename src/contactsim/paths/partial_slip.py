@@ -8,6 +8,10 @@ smaller one at which the contact is the stick area,
 Within the stick area both states differ by a rigid approach, so q shifts it as a whole, and around it q is μp. This is
 exact on lines, and on surfaces where Poisson's ratio is zero. Elsewhere the tractions do not shift all points of the
 stick area alike, and slip is not everywhere against the traction. Two numbers tell by how much.
+
+Only the smaller pressure is solved for. It presses the surface as p(P) displaces it, not the heights, so the difference
+carries neither the error of p(P) nor the rounding of the heights. Coulomb's law and the total are then recomputed from
+q: the largest error is the residual.
 """
 
 from __future__ import annotations
@@ -16,21 +20,29 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from contactsim.arguments import Positive, checked
+from contactsim.contact.hard_wall import HardWallProblem, Profile, Scale
 from contactsim.contact.loading import LoadPath, load_step
 from contactsim.contact.pose_hard_wall import pose_hard_wall
 from contactsim.contact.scene import Scene
-from contactsim.elasticity.base import check_poisson_ratio
+from contactsim.elasticity.base import PoissonRatio
 from contactsim.elasticity.half_space import HalfSpace
 from contactsim.elasticity.shear import shear_displacements
-from contactsim.errors import POSITIVE, InputError, Words, is_number, is_positive
-from contactsim.grid import Array, Grid
+from contactsim.errors import InputError, Words
+from contactsim.grid import Array, Grid, Threads
 from contactsim.solvers.base import Result, pressed_scene, solve
 from contactsim.solvers.registry import default_solver
 from contactsim.status import Status
 from contactsim.traits import Trait
 
-ROUNDING = 1e-12
+ROUNDING = 1e-13
 """Relative rounding of the traction at which all slides."""
+LEAST_SHARE = 1e-7
+"""Share of the traction at which all slides; under smaller ones all sticks, and tractions are in proportion to them."""
+DEPTH = 10.0
+"""Depth of the surface outside the contact, over the range of the displacement."""
+FLOOR = 1e-14
+"""Rounding of a displacement, over its size."""
 
 
 @dataclass(frozen=True)
@@ -51,8 +63,12 @@ class PartialSlip:
         half-space, and where nothing sticks or is shifted.
     slip_angle
         Rms angle between slip and traction where points slip, degrees; by Coulomb's law it is zero. NaN likewise.
+    residual
+        Largest error of the traction, recomputed from it: of the total, of |q| ≤ μp, and of q = μp at points that slip,
+        over the mean shear traction Q; of equal displacements where points stick, and of lagging behind where they
+        slip, over the shift or, if it is larger, Q·spacing/E*. Displacements are those of Poisson's ratio zero.
     status
-        Status of both pressures.
+        Converged if the residual is within the tolerance, else `INEXACT`.
     """
 
     traction: Array = field(repr=False)
@@ -61,6 +77,7 @@ class PartialSlip:
     shift: float
     misfit: float
     slip_angle: float
+    residual: float
     status: Status
 
     @property
@@ -74,14 +91,15 @@ class PartialSlip:
         return float(self.slip.mean())
 
 
+@checked
 def partial_slip(
     result: Result,
     *,
     shear_traction: float,
-    friction_coefficient: float,
-    poisson_ratio: float | None = None,
-    tolerance: float = 1e-6,
-    threads: int = 1,
+    friction_coefficient: Positive,
+    poisson_ratio: PoissonRatio | None = None,
+    tolerance: Positive = 1e-6,
+    threads: Threads = 1,
 ) -> PartialSlip:
     """Shear a pressed contact, and return where it sticks and slips.
 
@@ -93,14 +111,13 @@ def partial_slip(
         A state on a half-space, from `contactsim.press`.
     shear_traction : float
         Tangential load along x over the length or area of the heights, 0 up to the friction coefficient times the mean
-        pressure, at which all slides.
+        pressure of the result, at which all slides. The mean of the traction is this number, to rounding.
     friction_coefficient : float
         Coefficient of friction μ.
     poisson_ratio : float, optional
         Poisson's ratio of both bodies, required of a surface, above -1 and at most 0.5. On lines nothing depends on it.
     tolerance : float
-        Gap in contact and overlap outside, in grid steps. Tractions are small differences of two pressures: a result
-        that is less exact is solved once more. The solver is the default one.
+        Largest residual; see `PartialSlip`. The pressure of the result is taken as it is.
     threads : int
         Threads of the transforms.
 
@@ -121,44 +138,58 @@ def partial_slip(
     """
     scene = pressed_scene(result)
     _check_bodies(scene, poisson_ratio)
-    if not is_positive(friction_coefficient):
-        raise InputError("friction_coefficient", friction_coefficient, POSITIVE)
     sliding = friction_coefficient * result.mean_pressure
-    if not is_number(shear_traction) or not 0 <= shear_traction <= sliding * (1 + ROUNDING):
+    if not 0 <= shear_traction <= sliding * (1 + ROUNDING):
         allowed = f"from 0 to {sliding:g}, the friction coefficient times the mean pressure, at which all slides"
         raise InputError("shear_traction", shear_traction, allowed)
-    inner_pressure = max(result.mean_pressure - shear_traction / friction_coefficient, 0.0)
-    inner = _press(scene, result, inner_pressure, tolerance, threads)
-    is_exact = result.record.certificate.met(tolerance)
-    outer = result if is_exact else _press(scene, result, result.mean_pressure, tolerance, threads)
-    traction = friction_coefficient * np.clip(outer.pressure - inner.pressure, 0.0, outer.pressure)
-    stick = inner.contact & outer.contact
-    slip = outer.contact & ~stick
-    shift = friction_coefficient * _shift_ratio(scene, poisson_ratio) * _change_of_approach(outer, inner)
+    friction_coefficient, shear_traction = float(friction_coefficient), float(shear_traction)
+    share = min(shear_traction / sliding, 1.0) if shear_traction else 0.0
+    problem, scale = _pose_remainder(scene, result, max(share, LEAST_SHARE), tolerance, threads)
+    remainder = solve(default_solver(scene), problem, scale).pressure
+    limit = friction_coefficient * result.pressure
+    traction = np.clip(limit - friction_coefficient * remainder, -limit, limit)
+    stick = result.contact & ((remainder > 0) | (share < LEAST_SHARE))
+    slip = result.contact & ~stick
+    if stick.any():
+        traction[stick] *= (shear_traction * traction.size - traction[slip].sum()) / traction[stick].sum()
+    moved = scale.step * problem.compliance(traction / scale.pressure)
+    shift = float(moved[stick].mean() if stick.any() else moved[slip].max(initial=0.0))
+    unit = shear_traction * scale.step / scale.pressure  # Q·spacing/E*
+    residual = _residual(traction, limit, stick, slip, shear_traction, (moved - shift) / (max(abs(shift), unit) or 1.0))
+    shift = _shift_ratio(scene, poisson_ratio) * shift if abs(shift) > tolerance * unit else 0.0
     motion = shift, np.nan, np.nan
     if Trait.HALF_SPACE in scene.traits and stick.any() and shift:
         body, grid = HalfSpace(scene.contact_modulus, poisson_ratio), Grid(traction.shape, scene.lengths, threads)
         motion = _read_motion(shear_displacements(body, grid, traction), stick, slip)
-    status = next((state.status for state in (outer, inner) if not state.status.solved), Status.CONVERGED)
-    return PartialSlip(traction, stick, slip, *motion, status)
+    status = Status.CONVERGED if residual <= tolerance else Status.INEXACT
+    return PartialSlip(traction, stick, slip, *motion, residual, status)
 
 
 def _check_bodies(scene: Scene, poisson_ratio: float | None) -> None:
     """Raise an InputError for a layer, and for a surface without a Poisson's ratio."""
     if not {Trait.HALF_SPACE, Trait.FREE} & scene.traits:
         raise InputError("result", Words("one of a layer"), "one of a half-space, which is alike along and across")
-    if poisson_ratio is not None:
-        check_poisson_ratio(poisson_ratio)
-    elif Trait.SURFACE in scene.traits:
+    if poisson_ratio is None and Trait.SURFACE in scene.traits:
         raise InputError("poisson_ratio", poisson_ratio, "a number, above -1 and at most 0.5, of a surface")
 
 
-def _press(scene: Scene, result: Result, pressure: float, tolerance: float, threads: int) -> Result:
-    """Return the heights of a result, pressed at a mean pressure."""
-    step = load_step(None, pressure, "load")
-    again = replace(scene, path=LoadPath((step,)))
+def _pose_remainder(
+    scene: Scene, result: Result, share: float, tolerance: float, threads: int
+) -> tuple[HardWallProblem, Scale]:
+    """Return the problem of the smaller pressure, under a load less a share of it, and its units.
+
+    Its heights are the surface as the result displaces it, and far below that outside the contact. Under the full load
+    the result solves this problem to rounding, whatever its own tolerance.
+    """
+    step = load_step(None, result.mean_pressure, "load")
     heights = scene.upper.surface.heights(result.pressure.shape[-1])
-    return solve(default_solver(again), *pose_hard_wall(again, step, heights, tolerance, threads))
+    problem, scale = pose_hard_wall(replace(scene, path=LoadPath((step,))), step, heights, tolerance, threads)
+    load = result.mean_pressure / scale.pressure
+    moved = problem.compliance(result.pressure / scale.pressure)
+    shape = np.where(result.contact, moved, moved.min() - DEPTH * np.ptp(moved))
+    error = max(tolerance / 2 * min(share, 1 - share) * load, FLOOR * float(np.abs(moved).max()))
+    profile = Profile(shape, float(shape.max()), 1.0)
+    return replace(problem, profile=profile, tolerance=error, load=(1 - share) * load), scale
 
 
 def _shift_ratio(scene: Scene, poisson_ratio: float | None) -> float:
@@ -168,10 +199,17 @@ def _shift_ratio(scene: Scene, poisson_ratio: float | None) -> float:
     return (2 - poisson_ratio) / (2 * (1 - poisson_ratio))
 
 
-def _change_of_approach(outer: Result, inner: Result) -> float:
-    """Return the difference of two approaches; zero without contact, and in full contact, where only means differ."""
-    change = outer.approach - inner.approach
-    return change if outer.contact.any() and abs(change) > ROUNDING * abs(outer.approach) else 0.0
+def _residual(traction: Array, limit: Array, stick: Array, slip: Array, shear: float, lead: Array) -> float:
+    """Return the largest error of a traction; lead: displacement beyond the shift, over its unit."""
+    size = shear or 1.0
+    errors = (
+        abs(traction.mean() - shear) / size,
+        np.max(np.abs(traction) - limit) / size,
+        np.abs(traction - limit)[slip].max(initial=0.0) / size,
+        np.abs(lead[stick]).max(initial=0.0),
+        lead[slip].max(initial=0.0),
+    )
+    return float(np.max(errors))
 
 
 def _read_motion(displacements: tuple[Array, Array], stick: Array, slip: Array) -> tuple[float, float, float]:

@@ -12,10 +12,11 @@ from contactsim.paths.jumps import JumpCriterion, Side
 from contactsim.solvers.cohesive.base import Equilibrium
 from contactsim.traits import Trait
 
-MANY_PATCHES, LOADED = {1: 20, 2: 3}, 0.5
-"""Loaded patches above which the jump of one contact is not located, by the number of dimensions. A contact has up to
-three on a line, middle and edges, and two on a surface, where to locate every jump of a rough contact takes ten times
-the work of its path. Least traction of a loaded patch, over the laws' strength."""
+MANY_PATCHES, MOST_PATCHES, LOADED = {1: 20, 2: 3}, {1: 200, 2: 30}, 0.5
+"""Loaded patches above which the jump of one contact is located only where the pull may be the largest, and above which
+not even there, by the number of dimensions; a fold is then as wide as its step. A contact has up to three patches on a
+line, middle and edges, and two on a surface. To locate every jump of a rough surface takes ten times the work of its
+path. Least traction of a loaded patch, over the laws' strength."""
 SMALL_SHARE = 1 / 20
 """Share of the loaded points that may jump without being located, as where one valley of many closes."""
 CALM_RATIO = 0.25
@@ -62,8 +63,8 @@ def divide_step(jumps: JumpCriterion, before: Side, after: Side) -> Division:
 
     A step that is, with its motion, shorter than the smallest jump holds none. Else a jump is located, but for steps of
     the approach where the energy balances, or where the jump is that of one contact among many or of few points of a
-    large contact. Beside a hard wall, steps of a load are taken whole: how far they move a surface that the wall pushes
-    is not known.
+    large contact. These are located where the pull may be the largest since the approach turned: a pull-off lies there.
+    Beside a hard wall, steps of a load are taken whole: how far they move a surface that the wall pushes is not known.
 
     Parameters
     ----------
@@ -82,12 +83,12 @@ def divide_step(jumps: JumpCriterion, before: Side, after: Side) -> Division:
     if is_balanced(jumps, before, after):
         return Division.NONE
     increment = abs(step.value - start.value)
-    if not (
-        _is_calm(problem, state, increment)
-        or _moves_few_points(jumps, before, after)
-        or _has_many_patches(problem, first, state)
-    ):
-        return Division.LOCATE
+    if not _is_calm(problem, state, increment):
+        pulls_most = jumps.may_pull_most(before, after)
+        is_minor = not pulls_most and _moves_few_points(jumps, before, after)
+        most = MOST_PATCHES if pulls_most else MANY_PATCHES
+        if not (is_minor or _has_more_patches(problem, most, first, state)):
+            return Division.LOCATE
     is_short = increment <= problem.interaction_range * (1 + ROUNDING)
     return Division.NONE if is_short else Division.SHORTEN
 
@@ -137,11 +138,11 @@ def _moves_few_points(jumps: JumpCriterion, before: Side, after: Side) -> bool:
     return bool(0 < moved <= SMALL_SHARE * loaded)
 
 
-def _has_many_patches(problem: CohesiveProblem, *states: Equilibrium) -> bool:
-    """Return True if one of the states has many loaded patches."""
+def _has_more_patches(problem: CohesiveProblem, most: dict[int, int], *states: Equilibrium) -> bool:
+    """Return True if one of the states has more loaded patches than `most`, by the number of dimensions."""
     shape = problem.heights.shape
     count = PATCH_COUNTERS[len(shape)]
-    return any(count(_loaded_points(problem, state).reshape(shape)) > MANY_PATCHES[len(shape)] for state in states)
+    return any(count(_loaded_points(problem, state).reshape(shape)) > most[len(shape)] for state in states)
 
 
 def _loaded_points(problem: CohesiveProblem, state: Equilibrium) -> Array:

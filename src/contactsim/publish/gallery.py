@@ -23,7 +23,7 @@ from contactsim.analysis.dataset_summary import error_texts
 from contactsim.analysis.deciding import Effort, deciding_text
 from contactsim.analysis.verdict import CONDITION, DEPENDS, NOT_DECIDABLE, NOT_REPRODUCED, REPRODUCED
 from contactsim.analysis.wording import printed
-from contactsim.code_digest.modules import source_digest
+from contactsim.code_digest import source_digest
 from contactsim.durations import duration_text
 from contactsim.provenance import digest
 from contactsim.publish.pictures import reduce_colours

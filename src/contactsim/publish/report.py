@@ -20,7 +20,7 @@ from markupsafe import Markup
 from contactsim.analysis.rounding import NUMBERS, number_cells, number_text
 from contactsim.analysis.verdict import FINDING, NOT_DECIDABLE
 from contactsim.analysis.wording import beside_text, choices_text, measure_text, printed
-from contactsim.code_digest.modules import source_digest
+from contactsim.code_digest import source_digest
 from contactsim.evaluation.figure_settings import FigureSettings
 from contactsim.provenance import digest, versions
 from contactsim.publish import gallery

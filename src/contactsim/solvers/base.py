@@ -9,18 +9,21 @@ operators.
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from contactsim.contact.certificate import Certificate
-from contactsim.contact.hard_wall import HardWallProblem, Scale
 from contactsim.contact.scene import Scene
 from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.status import Status
 from contactsim.traits import Trait
+
+if TYPE_CHECKING:
+    from contactsim.contact.hard_wall import HardWallProblem, Scale
 
 
 class Solver(Protocol):
@@ -99,6 +102,8 @@ class Result:
         CPU time; apart from the record because it is not reproducible.
     scene
         What was pressed, if it was kept.
+    errors
+        Errors of its numbers by name, each in its unit, if they were asked for.
     """
 
     pressure: Array = field(repr=False)
@@ -108,6 +113,7 @@ class Result:
     record: Record
     seconds: float
     scene: Scene | None = field(default=None, repr=False)
+    errors: Mapping[str, float] | None = field(default=None, repr=False)
 
     @property
     def contact(self) -> Array:
@@ -124,10 +130,22 @@ class Result:
         """Mean pressure over the length or area of the heights, GPa."""
         return float(self.pressure.mean())
 
+    @property
+    def numbers(self) -> dict[str, Array]:
+        """Numbers that have an error, each of shape (1,): infinite where the solution did not converge."""
+        numbers = {
+            "relative_contact_area": self.relative_contact_area,
+            "approach": self.approach,
+            "mean_pressure": self.mean_pressure,
+            "mean_gap": float(self.gap.mean()),
+            "max_pressure": float(self.pressure.max()),
+        }
+        return {name: np.full(1, value if self.status.solved else np.inf) for name, value in numbers.items()}
 
-def pressed_scene(result: object) -> Scene:
+
+def pressed_scene(result: Result) -> Scene:
     """Return the scene of a result; raise an InputError for one that did not converge or has no scene."""
-    if not isinstance(result, Result) or result.scene is None or not result.status.solved:
+    if result.scene is None or not result.status.solved:
         raise InputError("result", result, "a converged result of `contactsim.press`")
     return result.scene
 

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from importlib import import_module, metadata
 from importlib.util import find_spec
-from typing import Any
+from typing import Annotated, Any
 
+from contactsim.arguments import Only
 from contactsim.contact.problem_kind import ProblemKind
 from contactsim.contact.scene import Scene
 from contactsim.errors import InputError
@@ -32,6 +33,7 @@ DEFAULT_SOLVERS = {
     (ProblemKind.COHESIVE, 2): "newton",
 }
 """Solver that is used unless another one is asked for, by kind of problem and number of dimensions."""
+SolverName = Annotated[str, Only("the name of a solver", bool)]
 REQUIRED_PACKAGES = {"tamaas": "tamaas"}
 """Package that a solver needs beside those that contactsim depends on."""
 

@@ -7,7 +7,7 @@ import time
 
 import xarray as xr
 
-from contactsim.error_control.control import solve_to_error
+from contactsim.error_control.ladder import solve_to_error
 from contactsim.paths.options import Setup
 from contactsim.status import warn_of_excess
 from contactsim.study.execute import RunFiles, keep_run

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from contactsim.analysis.ensemble import widen_interval
-from contactsim.code_digest.modules import module_path
+from contactsim.code_digest import module_path
 from contactsim.errors import InputError
 from contactsim.study.claim_plan import read_selection
 from contactsim.study.law_table import read_law

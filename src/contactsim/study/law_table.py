@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.code_digest.modules import source_digest
+from contactsim.code_digest import source_digest
 from contactsim.errors import InputError
 from contactsim.interface.base import Law
 from contactsim.interface.registry import EFFECTS

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from contactsim.elasticity.registry import ELASTICITIES
-from contactsim.error_control.relations import FILE
 from contactsim.interface.registry import EFFECTS, PAIRINGS
 from contactsim.paths.driver import driver_module
 from contactsim.paths.increments import INCREMENTS
@@ -73,7 +72,7 @@ class Run:
 
     @cached_property
     def source(self) -> str:
-        """Digest of the code that computes the run, the libraries, and the relations it is chosen by.
+        """Digest of the code that computes the run, the libraries.
 
         Code are the modules of its solver and of the kinds that it names, and all that these use. A run that chooses
         its settings by itself may come to any kind.
@@ -81,8 +80,7 @@ class Run:
         solver = solver_module(self.settings["solver"]["kind"])
         if self.stage == "run":
             return run_digest(solver, *modules_of_kinds(self.settings))
-        relations = [FILE.read_text(encoding="utf-8")] if "accuracy" in self.settings else []
-        return digest(computing_stage_digest(self.stage, solver), *relations)
+        return computing_stage_digest(self.stage, solver)
 
     @cached_property
     def digest(self) -> str:

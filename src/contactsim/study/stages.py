@@ -1,7 +1,7 @@
 """Modules that each stage of the workflow executes.
 
 A job carries a digest of the code that it executes, so that an edit reruns what it changes and nothing else. The
-modules named here are where that code begins; `contactsim.code_digest.modules` follows their imports.
+modules named here are where that code begins; `contactsim.code_digest` follows their imports.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 
 from contactsim import code_digest
-from contactsim.code_digest.modules import computing_digest, source_digest
+from contactsim.code_digest import computing_digest, source_digest
 from contactsim.provenance import digest
 from contactsim.variables import TABLE, read_table
 
@@ -29,9 +29,9 @@ STAGES: dict[str, tuple[str, ...]] = {
     "price": ("contactsim.evaluation.work_precision.prices",),
     "price_figure": ("contactsim.figures.diagnostics.prices",),
     "overview_figure": ("contactsim.figures.diagnostics.overview",),
-    "measure_scaling": ("contactsim.evaluation.calibration.measurement",),
+    "measure_scaling": ("contactsim.evaluation.calibration.fit",),
     "fit_scaling": ("contactsim.evaluation.calibration.fit",),
-    "trial": ("contactsim.evaluation.calibration.validation",),
+    "trial": ("contactsim.evaluation.calibration.trial",),
     "trials_figure": ("contactsim.figures.diagnostics.trials",),
     "measure_effects": ("contactsim.evaluation.effects.effect_cost",),
     "effects_figure": ("contactsim.figures.diagnostics.effects",),
@@ -78,4 +78,4 @@ def run_digest(*modules: str) -> str:
 
 def _table_of_variables() -> Path:
     """Return the table of variables of the package whose code the digests are of."""
-    return code_digest.modules.package_root() / TABLE.name
+    return code_digest.package_root() / TABLE.name

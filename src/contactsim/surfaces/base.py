@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Annotated, Protocol
 
 import numpy as np
 
-from contactsim.errors import POSITIVE, InputError, is_positive, is_whole
+from contactsim.arguments import Count, Only, checked
+from contactsim.errors import InputError, is_whole
 from contactsim.grid import Array, Grid
 
 
@@ -40,31 +41,23 @@ class Surface(Protocol):
         """Highest number of waves in a period, or None."""
         ...
 
-    def shape(self, points: int) -> tuple[int, ...]:
+    def shape(self, points: Count) -> tuple[int, ...]:
         """Return the shape of the heights with `points` points along x."""
         ...
 
-    def check(self, points: int) -> None:
+    def check(self, points: Count) -> None:
         """Raise an InputError if `points` points along x cannot sample the surface; computes no heights."""
         ...
 
-    def heights(self, points: int) -> Array:
+    def heights(self, points: Count) -> Array:
         """Return the heights in nm at equal steps from 0, shape (points,) or (points along y, points)."""
         ...
 
 
-def check_length(length: float) -> None:
-    """Raise an InputError unless a period in nm is positive and finite."""
-    if not is_positive(length):
-        raise InputError("length", length, f"{POSITIVE}, in nm: a period")
+Dimensions = Annotated[int, Only("1, a line, or 2, a surface", lambda value: is_whole(value) and value <= 2)]
 
 
-def check_dimensions(dimensions: int) -> None:
-    """Raise an InputError unless there are one or two dimensions."""
-    if not (is_whole(dimensions) and dimensions <= 2):
-        raise InputError("dimensions", dimensions, "1, a line, or 2, a surface")
-
-
+@checked
 class Smooth:
     """A surface that any number of points can sample, with the same period in each direction.
 
@@ -90,11 +83,11 @@ class Smooth:
         """Period in each direction, nm."""
         return (self.length,) * self.dimensions
 
-    def shape(self, points: int) -> tuple[int, ...]:
+    def shape(self, points: Count) -> tuple[int, ...]:
         """Return the shape of the heights with `points` points along x."""
         return (points,) * len(self.lengths)
 
-    def check(self, points: int) -> None:
+    def check(self, points: Count) -> None:
         """Raise an InputError for fewer than two points along x, or too few for the shortest wave."""
         Grid(self.shape(points), self.lengths)
         if self.modes is not None and points <= 2 * self.modes:

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from contactsim.errors import InputError, Words
 from contactsim.grid import Array
-from contactsim.surfaces.io import TOLERANCE
 from contactsim.surfaces.topography import Topography
+from contactsim.topography_files.io import TOLERANCE
 
 
-def add_heights(first: Topography, second: Topography | None, offset: object, periodic: bool) -> Topography:
+def add_heights(
+    first: Topography, second: Topography | None, offset: int | Sequence[int] | None, periodic: bool
+) -> Topography:
     """Return the sum of the heights of two bodies, those of the first where the second is flat.
 
     Parameters
@@ -49,17 +51,15 @@ def add_heights(first: Topography, second: Topography | None, offset: object, pe
     return replace(first, values=here[_facing(here, there, moves)] + there[_facing(there, here, back)])
 
 
-def _moves(offset: object, dimensions: int) -> list[int]:
+def _moves(offset: int | Sequence[int] | None, dimensions: int) -> list[int]:
     """Return the points to move in each direction, x last."""
     if offset is None:
         return [0] * dimensions
-    is_list = isinstance(offset, list | tuple) or (isinstance(offset, np.ndarray) and offset.ndim == 1)
-    moves: list[Any] = list(offset) if is_list else [offset]  # type: ignore[call-overload]
-    whole = all(isinstance(move, int | np.integer) and not isinstance(move, bool) for move in moves)
-    if not whole or len(moves) != dimensions:
+    moves = list(offset) if isinstance(offset, Sequence) else [offset]
+    if len(moves) != dimensions:
         allowed = "whole points along x" if dimensions == 1 else "a pair of whole points, along y and along x"
         raise InputError("offset", offset, allowed)
-    return [int(move) for move in moves]
+    return moves
 
 
 def _facing(heights: Array, others: Array, moves: list[int]) -> tuple[slice, ...]:

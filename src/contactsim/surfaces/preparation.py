@@ -11,10 +11,11 @@ from functools import partial
 
 import numpy as np
 
-from contactsim.errors import POSITIVE, InputError, check_option_names, is_positive
+from contactsim.arguments import checked
+from contactsim.errors import POSITIVE, InputError, is_positive
 from contactsim.grid import Array
-from contactsim.surfaces import io
 from contactsim.surfaces.topography import Topography
+from contactsim.topography_files import io
 
 Operations = Mapping[str, Callable[[Array], Array]]
 
@@ -118,7 +119,7 @@ ENDS: Mapping[int, Operations] = {
 """Ways to close the seams, for a line and for an area."""
 
 
-@check_option_names
+@checked
 def prepare_topography(
     topography: Topography,
     detrend: str | None = None,
@@ -165,8 +166,6 @@ def prepare_topography(
     InputError
         If an option has a value that is not one of these.
     """
-    if not isinstance(topography, Topography):
-        raise InputError("topography", topography, "a Topography, as `read_topography` returns it")
     heights, dimensions, replaced = topography.values, topography.values.ndim, topography.spikes
     if spikes is not None:
         if not is_positive(spikes):
@@ -179,7 +178,7 @@ def prepare_topography(
         ("ends", ends, ENDS),
     ):
         ways = operations[dimensions]
-        if not isinstance(name, str) or name not in ways:
+        if name not in ways:
             raise InputError(key, name, f"one of {', '.join(ways)}", topography.source)
         heights = ways[name](io.finite_numbers(heights, "heights", topography.source, dims=dimensions))
     repeats = topography.periodic or ends != "none"

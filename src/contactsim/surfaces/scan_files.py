@@ -5,19 +5,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from contactsim.arguments import FileName, checked
 from contactsim.errors import InputError
-from contactsim.surfaces import io
-from contactsim.surfaces.instrument import read_instrument
-from contactsim.surfaces.io import HDF5, NAMED, SUFFIXES, TEXT, RawHeights
-from contactsim.surfaces.missing import REMEDY, fill_missing
-from contactsim.surfaces.netcdf import read_netcdf
-from contactsim.surfaces.text import is_cell_grid
-from contactsim.surfaces.text_layouts import read_text
 from contactsim.surfaces.topography import Topography, dimensions_of, read_spacing
+from contactsim.topography_files import io
+from contactsim.topography_files.instrument import read_instrument
+from contactsim.topography_files.io import HDF5, NAMED, SUFFIXES, TEXT, RawHeights
+from contactsim.topography_files.missing import REMEDY, fill_missing
+from contactsim.topography_files.netcdf import read_netcdf
+from contactsim.topography_files.text import is_cell_grid
+from contactsim.topography_files.text_layouts import read_text
 
 
+@checked
 def read_topography(
-    path: str | Path,
+    path: FileName,
     *,
     dimensions: int | None = None,
     spacing: float | Sequence[float] | None = None,

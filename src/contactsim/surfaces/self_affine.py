@@ -13,15 +13,18 @@ import hashlib
 import json
 from dataclasses import dataclass, field, fields
 from functools import cached_property
-from typing import cast
+from typing import Annotated
 
 import numpy as np
 
-from contactsim.errors import POSITIVE, InputError, is_number, is_positive, keep_floats
-from contactsim.grid import Array, Grid
-from contactsim.surfaces.base import Smooth, check_dimensions, check_length
+from contactsim.arguments import Count, Length, Only, Positive, checked
+from contactsim.errors import InputError, is_number
+from contactsim.grid import Array, Grid, check_memory
+from contactsim.surfaces.base import Dimensions, Smooth
 
 AMPLITUDES = ("gaussian", "fixed")
+HurstExponent = Annotated[float, Only("a number from 0 to 1", lambda value: is_number(value) and 0 <= value <= 1)]
+Amplitudes = Annotated[str, Only(f"one of {', '.join(AMPLITUDES)}", AMPLITUDES.__contains__)]
 MAX_WAVES = 2**28
 """Most waves in a period along each direction."""
 CUTOFF_RATIO = 512
@@ -47,6 +50,19 @@ def _label_word(label: object) -> int:
     return int.from_bytes(hashlib.sha256(json.dumps(label).encode()).digest()[:8], "big")
 
 
+def _is_seed(value: object) -> bool:
+    """Return True for a whole number, 0 or more, or a tuple of seeds."""
+    if isinstance(value, tuple | list):
+        return bool(value) and all(map(_is_seed, value))
+    return bool(isinstance(value, int | np.integer) and value >= 0)
+
+
+Seed = Annotated[
+    int | tuple[int, ...], Annotated[object, Only("a whole number, 0 or more, or a tuple of them", _is_seed)]
+]
+
+
+@checked
 @dataclass(frozen=True, repr=False)
 class SelfAffine(Smooth):
     """Random heights with a self-affine power spectrum (Eq. 3.10): flat at long waves, a power law at short ones.
@@ -77,48 +93,36 @@ class SelfAffine(Smooth):
         Seed of the random numbers. The numbers of a wave do not depend on the grid nor on the short cut-off.
     """
 
-    length: float
-    hurst_exponent: float
-    long_cutoff: float = cast("float", None)  # `length` or a number once the surface is made
-    short_cutoff: float = cast("float", None)
-    rms_gradient: float | None = None
-    rms_height: float | None = None
-    amplitudes: str = "gaussian"
-    dimensions: int = 1
-    low_pass_cutoff: float | None = None
-    seed: int | tuple[int, ...] = field(default=0, kw_only=True)
+    length: Length
+    hurst_exponent: HurstExponent
+    long_cutoff: Length = None  # type: ignore[assignment] # `length` or a number once the surface is made
+    short_cutoff: Length = None  # type: ignore[assignment]
+    rms_gradient: Positive | None = None
+    rms_height: Length | None = None
+    amplitudes: Amplitudes = "gaussian"
+    dimensions: Dimensions = 1
+    low_pass_cutoff: Length | None = None
+    seed: Seed = field(default=0, kw_only=True)
 
     def __post_init__(self) -> None:
-        check_length(self.length)
         if self.long_cutoff is None:
             object.__setattr__(self, "long_cutoff", self.length)
-        check_dimensions(self.dimensions)
-        if not (is_number(self.hurst_exponent) and 0 <= self.hurst_exponent <= 1):
-            raise InputError("hurst_exponent", self.hurst_exponent, "a number from 0 to 1")
-        if not (is_positive(self.long_cutoff) and self.long_cutoff <= self.length):
+        if self.long_cutoff > self.length:
             raise InputError("long_cutoff", self.long_cutoff, f"above 0 nm, at most {self.length} nm")
         if self.short_cutoff is None:
             object.__setattr__(self, "short_cutoff", self.long_cutoff / CUTOFF_RATIO)
         shortest = self.length / MAX_WAVES
-        if not (is_positive(self.short_cutoff) and shortest <= self.short_cutoff < self.long_cutoff):
+        if not shortest <= self.short_cutoff < self.long_cutoff:
             allowed = f"at least {shortest:g} nm, below the long cut-off {self.long_cutoff} nm"
             raise InputError("short_cutoff", self.short_cutoff, allowed)
         if (self.rms_gradient is None) == (self.rms_height is None):
             given = None if self.rms_gradient is None else [self.rms_gradient, self.rms_height]
             raise InputError("rms_gradient", given, "exactly one of rms_gradient and rms_height")
-        for name, unit in (("rms_gradient", ""), ("rms_height", ", in nm")):
-            value = getattr(self, name)
-            if value is not None and not is_positive(value):
-                raise InputError(name, value, f"{POSITIVE}{unit}")
         low_pass = self.low_pass_cutoff
-        if low_pass is not None and not (is_number(low_pass) and self.short_cutoff < low_pass < self.long_cutoff):
+        if low_pass is not None and not self.short_cutoff < low_pass < self.long_cutoff:
             ends = f"above the short cut-off {self.short_cutoff} nm, below the long cut-off"
             allowed = f"{ends} {self.long_cutoff} nm, or left out"
             raise InputError("low_pass_cutoff", self.low_pass_cutoff, allowed)
-        if not isinstance(self.amplitudes, str) or self.amplitudes not in AMPLITUDES:
-            raise InputError("amplitudes", self.amplitudes, f"one of {list(AMPLITUDES)}")
-        _check_seed(self.seed)
-        keep_floats(self)
 
     def __repr__(self) -> str:
         """Return the exact fields that differ from their defaults: equal texts mean equal surfaces."""
@@ -197,22 +201,14 @@ class SelfAffine(Smooth):
             return self.rms_gradient
         return _rms(self.coefficients, self._wavenumber(*self._mode_numbers(self.modes)))
 
-    def heights(self, points: int) -> Array:
+    def heights(self, points: Count) -> Array:
         """Return heights of zero mean in nm, shape (points,) or (points, points)."""
         self.check(points)
+        check_memory(points, self.shape(points), 2)
         grid = Grid((points,) * self.dimensions, self.lengths)
         half = np.zeros(grid.half_shape, complex)
         half[grid.low_modes(self.modes)] = self.coefficients
         return grid.backward(half)
-
-
-def _check_seed(seed: object) -> None:
-    """Raise InputError unless a seed is a whole number or a tuple of seeds."""
-    if isinstance(seed, tuple | list) and seed:
-        for part in seed:
-            _check_seed(part)
-    elif not (isinstance(seed, int | np.integer) and seed >= 0):
-        raise InputError("seed", seed, "a whole number, 0 or more, or a tuple of them")
 
 
 def _waves(length: float, cutoff: float) -> int:

@@ -6,11 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.errors import NUMBER, POSITIVE, InputError, is_number, is_positive, is_whole, keep_floats
-from contactsim.grid import Array, Grid
-from contactsim.surfaces.base import Smooth, Surface, check_dimensions, check_length
+from contactsim.arguments import Count, Length, checked
+from contactsim.errors import InputError
+from contactsim.grid import Array, Grid, check_memory
+from contactsim.surfaces.base import Dimensions, Smooth, Surface
 
 
+@checked
 @dataclass(frozen=True)
 class Flat(Smooth):
     """A plane, or in one dimension a straight line.
@@ -25,16 +27,9 @@ class Flat(Smooth):
         Period along y, in nm; without it the plane is a line.
     """
 
-    length: float
+    length: Length
     height: float = 0.0
-    width: float | None = None
-
-    def __post_init__(self) -> None:
-        for period in self.lengths:
-            check_length(period)
-        if not is_number(self.height):
-            raise InputError("height", self.height, f"{NUMBER}, in nm")
-        keep_floats(self)
+    width: Length | None = None
 
     @classmethod
     def facing(cls, surface: Surface) -> Flat:
@@ -52,8 +47,9 @@ class Flat(Smooth):
         """Period in each direction, nm."""
         return (self.length,) if self.width is None else (self.width, self.length)
 
-    def heights(self, points: int) -> Array:
+    def heights(self, points: Count) -> Array:
         """Return the constant height in nm, shape (points,) or, since it does not depend on y, (1, points)."""
+        check_memory(points, (points,))
         return np.full((1,) * (len(self.lengths) - 1) + (points,), float(self.height))
 
 
@@ -61,23 +57,21 @@ MIN_RADIUS = 1e-6
 """Smallest radius, over the period: the foot of a sharper shape is too deep to be told from its crest."""
 
 
+@checked
 @dataclass(frozen=True)
 class _Round(Smooth):
     """Heights -ρ²/2R, ρ the distance from the middle of the period."""
 
-    length: float
-    radius: float
+    length: Length
+    radius: Length
 
     def __post_init__(self) -> None:
-        check_length(self.length)
-        if not is_positive(self.radius):
-            raise InputError("radius", self.radius, f"{POSITIVE}, in nm")
         if self.radius < MIN_RADIUS * self.length:
             raise InputError("radius", self.radius, f"at least {MIN_RADIUS:g} of the period, {self.length:g} nm")
-        keep_floats(self)
 
-    def heights(self, points: int) -> Array:
+    def heights(self, points: Count) -> Array:
         """Return the heights -ρ²/2R in nm, at most 0, shape (points,) or (points, points)."""
+        check_memory(points, self.shape(points))
         square = (Grid((points,), (self.length,)).positions() - self.length / 2) ** 2
         total = square if self.dimensions == 1 else square[:, None] + square
         return -total / (2 * self.radius)
@@ -111,6 +105,7 @@ class Sphere(_Round):
     dimensions = 2
 
 
+@checked
 @dataclass(frozen=True)
 class Sinusoid(Smooth):
     """Westergaard's wave, amplitude × cos(2π periods x / length); in two dimensions times the same wave along y.
@@ -127,26 +122,18 @@ class Sinusoid(Smooth):
         1 for a line, 2 for a surface.
     """
 
-    length: float
-    amplitude: float
-    periods: int = 1
-    dimensions: int = 1
-
-    def __post_init__(self) -> None:
-        check_length(self.length)
-        check_dimensions(self.dimensions)
-        if not is_positive(self.amplitude):
-            raise InputError("amplitude", self.amplitude, f"{POSITIVE}, in nm")
-        if not is_whole(self.periods):
-            raise InputError("periods", self.periods, "a whole number, 1 or more")
-        keep_floats(self)
+    length: Length
+    amplitude: Length
+    periods: Count = 1
+    dimensions: Dimensions = 1
 
     @property
     def modes(self) -> int:
         """Number of waves in a period."""
         return self.periods
 
-    def heights(self, points: int) -> Array:
+    def heights(self, points: Count) -> Array:
         """Return the heights in nm, a crest at the origin, shape (points,) or (points, points)."""
+        check_memory(points, self.shape(points))
         wave = np.cos(2 * np.pi * (np.arange(points) * self.periods % points / points))
         return self.amplitude * (wave if self.dimensions == 1 else wave[:, None] * wave)

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-import ducc0
 import numpy as np
 
+from contactsim import fft
 from contactsim.grid import Array, Grid, blocks
 
 Block = tuple[slice, Array]
@@ -67,16 +67,16 @@ class _Waves:
         rows, self._points = heights.shape
         part = np.empty((rows, modes + 1), complex)
         for low, high in blocks(heights.shape):
-            part[low:high] = ducc0.fft.r2c(heights[low:high], axes=(1,), inorm=2)[:, : modes + 1]
+            part[low:high] = fft.forward(heights[low:high], (1,))[:, : modes + 1]
         self._slopes = [part]
         if len(grid.shape) == 2:
             across = np.arange(rows)[:, None]
             across[across > rows // 2] -= rows
-            ducc0.fft.c2c(part, axes=(0,), inorm=2, out=part)
+            fft.transform(part, 0)
             part[np.abs(across[:, 0]) > modes] = 0
             self._slopes.append(2j * np.pi / grid.lengths[0] * across * part)
             for coefficients in self._slopes:
-                ducc0.fft.c2c(coefficients, axes=(0,), forward=False, out=coefficients)
+                fft.transform_back(coefficients, 0)
         part *= 2j * np.pi / grid.lengths[-1] * np.arange(modes + 1)
 
     def rows(self, low: int, high: int) -> Array:
@@ -85,6 +85,6 @@ class _Waves:
         total = np.zeros((high - low, self._points))
         for coefficients in self._slopes:
             half[:, : coefficients.shape[1]] = coefficients[low:high]
-            slope = ducc0.fft.c2r(half, lastsize=self._points, axes=(1,), forward=False)
+            slope = fft.backward(half, self._points, (1,))
             total += np.square(slope, out=slope)
         return total

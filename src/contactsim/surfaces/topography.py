@@ -7,14 +7,23 @@ on a half-space, or `contactsim.prepare_topography` makes it periodic.
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
+from typing import Annotated
 
 import numpy as np
 
+from contactsim.arguments import Count, Only, checked
 from contactsim.errors import POSITIVE, InputError
 from contactsim.grid import Array
-from contactsim.surfaces import io
+from contactsim.topography_files import io
+
+MAX_SLOPE = 10.0
+"""Largest median slope of measured heights."""
+SAMPLED_LINES = 256
+"""Lines in each direction from which the median is taken, or up to twice as many."""
 
 
+@checked
 @dataclasses.dataclass(frozen=True, eq=False)
 class Topography:
     """Measured heights along a line or over an area: a surface with its own number of points.
@@ -39,7 +48,7 @@ class Topography:
     """
 
     values: Array = dataclasses.field(repr=False)
-    spacing: tuple[float, ...]
+    spacing: Annotated[tuple[float, ...], float | Sequence[float]]
     source: str | None = None
     filled: float = 0.0
     spikes: float = 0.0
@@ -72,29 +81,46 @@ class Topography:
         """Length in each direction, x last: number of points times spacing, nm."""
         return tuple(size * step for size, step in zip(self.values.shape, self.spacing, strict=True))
 
-    def shape(self, points: int) -> tuple[int, ...]:
+    def shape(self, points: Count) -> tuple[int, ...]:
         """Return the shape of the heights, which does not depend on `points`."""
         return self.values.shape
 
-    def check(self, points: int) -> None:
+    def check(self, points: Count) -> None:
         """Raise an InputError for another number of points along x: a measurement is not resampled."""
         if points != self.points:
             raise InputError("points", points, f"{self.points}, the number of points of the measurement")
 
-    def heights(self, points: int) -> Array:
+    def heights(self, points: Count) -> Array:
         """Return the heights in nm; `points` must be their number along x."""
         self.check(points)
         return self.values
 
-    def even_part(self) -> Topography:
-        """Return the topography without the last point in each direction that has an odd number of them."""
-        values = self.values[tuple(slice(0, size - size % 2) for size in self.values.shape)]
-        return self if values.shape == self.values.shape else dataclasses.replace(self, values=values)
+    def thinned(self, stride: Count) -> Topography:
+        """Return every so many points, 1, 2 or 4, in each direction, of the part whose numbers of points 4 divides."""
+        values = self.values[tuple(slice(0, size - size % 4, stride) for size in self.values.shape)]
+        if values.shape == self.values.shape:
+            return self
+        return dataclasses.replace(self, values=values, spacing=tuple(stride * step for step in self.spacing))
 
-    def every_second(self) -> Topography:
-        """Return the topography with every second point in each direction, from the first."""
-        values = self.values[(slice(None, None, 2),) * self.values.ndim]
-        return dataclasses.replace(self, values=values, spacing=tuple(2 * step for step in self.spacing))
+
+def is_gentle(topography: Topography) -> bool:
+    """Return True unless most neighbouring points, of a sample, differ by so much that units must be mixed up.
+
+    The walls of a punch or a post, however steep, are few.
+    """
+    for axis, step in enumerate(topography.spacing):
+        lines = np.moveaxis(topography.values, axis, -1).reshape(-1, topography.values.shape[axis])
+        differences = np.abs(np.diff(lines[:: max(len(lines) // SAMPLED_LINES, 1)]))
+        if np.median(differences) > MAX_SLOPE * step:
+            return False
+    return True
+
+
+MEASURED = (
+    f"a Topography, from read_topography(path), of slopes up to {MAX_SLOPE:g}: beyond, heights and spacing probably "
+    "have different units"
+)
+Measured = Annotated[Topography, Only(MEASURED, is_gentle)]
 
 
 def dimensions_of(values: object) -> int:

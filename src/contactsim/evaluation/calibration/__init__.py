@@ -1,1 +1,1 @@
-"""Scaling relations of error and cost: measured, fitted, validated."""
+"""Coverage factors and relations of cost, measured on random scenes and fitted; and trials of error control."""

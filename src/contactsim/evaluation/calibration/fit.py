@@ -1,166 +1,117 @@
-"""Fit the scaling relations of error and cost to measurements.
+"""Fit what error control takes from a population of scenes: coverage factors, and relations between runs and work.
 
-Every relation is a power law: a straight line through logarithms by least squares, with the scatter that remains.
+Factors are in `error_control.estimates`, relations in `error_control/scaling.json`; no trial takes part in either.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+import json
+import logging
+import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import pandas as pd
-import yaml
 from scipy.optimize import least_squares
 
-from contactsim.error_control.relations import Relation
-from contactsim.error_control.scaling import DEFAULT_GRID_ORDER, GRID_ORDERS, LINE, PATH, ROUGH_PATH, SLIDE, SURFACE
-from contactsim.errors import InputError
-from contactsim.evaluation.calibration.measurement import MEASURED_QUANTITIES
+from contactsim.contact.problem_kind import ProblemKind
+from contactsim.error_control.estimates import FACTORS, told_changes
+from contactsim.error_control.forecast import transform_seconds
+from contactsim.error_control.ladder import told_values
+from contactsim.error_control.options import scale_increment
+from contactsim.error_control.scaling import FAMILIES, features, run_family
+from contactsim.error_control.solution import Solution, relative_difference, solve_setup
+from contactsim.evaluation.calibration.trial import Trial, solve_with_reference
+from contactsim.paths.adaptive import Adaptive
+from contactsim.paths.options import Setup
+from contactsim.traits import Trait
 
-ROUGH = ("hurst_exponent", "bandwidth", "rough")
-ERROR_FEATURES = {
-    LINE: ("one", "grid", "pressure", *ROUGH),
-    SURFACE: ("one", "grid", "pressure", *ROUGH),
-    PATH: ("one", "grid", "zone", "friction"),
-    ROUGH_PATH: ("one", "grid", "hurst_exponent", "bandwidth", "strength"),
-    SLIDE: ("one", "grid", "zone"),
-}
-WORK_FEATURES = {
-    LINE: ("one", "area", "size", "tolerance", *ROUGH),
-    SURFACE: ("one", "area", "size", "tolerance", *ROUGH),
-    PATH: ("one", "steps", "zone", "grid", "deep", "coupled", "friction", "loose", "tight", "every"),
-    ROUGH_PATH: (
-        "one",
-        "steps",
-        "strength",
-        "grid",
-        "deep",
-        "hurst_exponent",
-        "bandwidth",
-        "coupled",
-        "friction",
-        "tight",
-        "every",
-    ),
-    SLIDE: ("one", "steps", "zone", "grid", "deep", "tight"),
-}
-OPTION_FEATURES = ("one", "tolerance", "loose", "tight", "every", "steps", "grid", "size")
-"""Features that follow from a user's options: they do not put a scene outside the measured ranges."""
-FITTED_ORDER = ("pull_off_load_loading", "static_friction", "final_load", "onset_contact_length")
-"""Quantities whose order of convergence in the grid is fitted: it depends on the resolution of the process zone."""
-INCREMENT_ORDERS = {"pull_off_load_loading": 1.0}
-"""Powers of the increment that are prescribed: where jumps are found to some width, a fit sees little of it."""
-NOISE, WRONG = {"points": 5e-4}, 0.15
-"""Relative errors below and above which a setting is left out of the fit: noise, and the pre-asymptotic range."""
-FAINT = 1e-6
-"""The same noise of other knobs, which make only a part of the error."""
-MIN_ROWS = 6
-RIDGE_WEIGHT = 1e-3
+logger = logging.getLogger(__name__)
+
+COVERAGE, SELECTION = 0.985, 1.3
+"""Part of true errors that estimates cover, one by one; and a margin, as runs end where their estimate is small, be it
+by chance. Both together cover 95 of 100 final runs at all their loads."""
+FAINT, LARGE = 1e-3, 0.3
+"""Errors smaller than the first, true and estimated, and estimates larger than the second are left out."""
+LEAST = 1e-5
+"""Least estimate, in place of none where runs agree."""
+RIDGE_WEIGHT = 1e-2
 """Weight that keeps coefficients small where features are alike."""
+NOT_RANGED = ("one", "tolerance", "every", "steps")
+"""Features of a user's options: they do not put a scene outside the measured ranges."""
 
 
-@dataclass(frozen=True)
-class PowerLaw:
-    """Coefficients by feature, the standard deviation of the logarithms that remains, and the number of rows."""
+def measure_scene(trial: Trial) -> pd.DataFrame:
+    """Return one row for each run that tells a work, and for each run, quantity and load that tells an error.
 
-    coefficients: Mapping[str, float]
-    spread: float
-    rows: int
-
-
-def fit_relations(table: pd.DataFrame) -> dict[str, Any]:
-    """Fit the relations of all families.
-
-    Parameters
-    ----------
-    table : pandas.DataFrame
-        Rows of `contactsim.evaluation.calibration.measurement.measure_scaling`.
-
-    Returns
-    -------
-    dict
-        Relations by family, and the seconds of the transform in which times are counted.
+    Columns are `family`, features, `transforms`, `seconds`, `count` and `total` of the first, which begin from nothing;
+    and `changes`, how many changes tell the error, and `ratio`, the true error over what they say, of the second.
     """
+    judged = solve_with_reference(trial)
+    runs = [*judged.result.before, judged.result.last]
+    cold = [solve_setup(setup, ()) for setup in _cold_setups(runs)]
+    lattice = math.isfinite(trial.setup.scene.pairing.lattice_constant)  # whose costs are not fitted
+    rows = [row for run in [*cold, judged.reference] for row in ([] if lattice else _work_rows(run))]
+    for count, name in ((count, name) for count in range(2, len(runs) + 1) for name in judged.reference.values):
+        changes = told_changes(*told_values(runs[:count], name))
+        sizes = np.abs(judged.reference.values[name])
+        told = np.divide(np.max(changes, axis=0), sizes, out=np.full(sizes.shape, np.inf), where=sizes > 0)
+        true = relative_difference(judged.reference, runs[count - 1], name)
+        counts = (np.maximum(told, true) > FAINT) & (told < LARGE) & np.isfinite(runs[count - 1].values[name])
+        rows += [{"changes": len(changes), "ratio": ratio} for ratio in true[counts] / np.maximum(told[counts], LEAST)]
+    return pd.DataFrame(rows).assign(scene=f"{trial.kind} {trial.count}", unit=transform_seconds())
+
+
+def _cold_setups(runs: Sequence[Solution]) -> list[Setup]:
+    """Return setups like those of some runs, which begin from nothing; of paths with other increments too."""
+    setups = [run.setup for run in runs]
+    if setups[0].scene.kind is ProblemKind.HARD_WALL:
+        return [setup.with_options(keep=()) for setup in setups]
+    setups.append(scale_increment(setups[-2], 0.4))
+    if {Trait.MEAN_PRESSURE, Trait.WALL} & setups[0].scene.traits:  # adaptive ones would locate each point that touches
+        return setups
+    return [*setups, setups[-2].with_options(increments=Adaptive())]
+
+
+def _work_rows(run: Solution) -> list[dict[str, Any]]:
+    """Return a row for each load, or one for a path."""
+    scene, data = run.setup.scene, run.data
+    shared = {"family": run_family(scene), "total": run.size}
+    places = features(run.setup)
+    if len(places) == 1:
+        works = [(data.step.size, run.transforms, run.seconds)]
+    else:
+        works = [(1, *numbers) for numbers in zip(data.transforms.values, data.seconds.values, strict=True)]
+    return [
+        shared | numbers | {"count": count, "transforms": float(transforms), "seconds": float(seconds)}
+        for numbers, (count, transforms, seconds) in zip(places, works, strict=True)
+    ]
+
+
+def coverage_factors(table: pd.DataFrame) -> list[float]:
+    """Return the factors, 1 or more, of estimates from two and from three changes that cover true errors."""
+    ratios = table[table.changes.isin(FACTORS)].groupby("changes").ratio
+    return [_round(SELECTION * max(value, 1.0)) for value in ratios.quantile(COVERAGE).sort_index()]
+
+
+def fit_family(works: pd.DataFrame, family: str) -> dict[str, Any]:
+    """Fit the relations of one family to its rows: a straight line through logarithms by least squares."""
+    unit, rows = works.unit.median(), works[works.family == family].dropna(axis=1, how="all")
+    known = {"family", "total", "count", "transforms", "seconds", "scene", "unit"}
+    names = [str(name) for name in rows if name not in known]
+    rows = rows[rows.transforms > 0]
+    matrix, logs = rows[names].to_numpy(float), np.log(rows.transforms.to_numpy(float))
+    penalty = np.sqrt(RIDGE_WEIGHT * len(rows)) * np.diag([float(name != "one") for name in names])
+    padded = np.vstack([matrix, penalty]), np.concatenate([logs, np.zeros(len(names))])
+    solution = np.linalg.lstsq(*padded, rcond=None)[0]
     return {
-        "unit": _round(table.unit.median()),
-        "families": {kind: _fit_family(kind, rows) for kind, rows in table.groupby("kind", sort=False)},
+        "transforms": {name: _round(value) for name, value in zip(names, solution, strict=True)},
+        "units": {name: _round(value / unit) for name, value in _fit_seconds(rows).items()},
+        "ranges": {
+            name: [_round(rows[name].min()), _round(rows[name].max())] for name in names if name not in NOT_RANGED
+        },
     }
-
-
-def _fit_family(kind: str, rows: pd.DataFrame) -> dict[str, Any]:
-    """Fit the relations of one family to all its rows."""
-    wall = kind in (LINE, SURFACE)
-    other = "tolerance" if wall else "increment"
-    fits: dict[str, dict[str, PowerLaw | None]] = {"points": {}, other: {}, "resolved": {}}
-    grids, others = rows[rows.knob == "points"], rows[rows.knob == other]
-    for name in MEASURED_QUANTITIES[kind]:
-        column = f"error_{name}"
-        order = GRID_ORDERS.get(name, DEFAULT_GRID_ORDER)
-        prescribed = {} if name in FITTED_ORDER else {"grid": order}
-        fits["points"][name] = fit_power_law(grids, column, ERROR_FEATURES[kind], prescribed)
-        of_knob = {other: INCREMENT_ORDERS[name]} if name in INCREMENT_ORDERS else {}
-        fits[other][name] = fit_power_law(others, column, ("one", other), of_knob)
-        if wall:
-            features = ("one", "resolved", "pressure", *ROUGH)
-            fits["resolved"][name] = fit_power_law(grids, column, features, {"resolved": order})
-    errors = {knob: {name: asdict(law) for name, law in laws.items() if law} for knob, laws in fits.items()}
-    transforms = fit_power_law(rows[rows.knob != "warm_start"], "transforms", WORK_FEATURES[kind], {})
-    if transforms is None:
-        raise InputError(f"rows of {kind}", len(rows), f"at least {MIN_ROWS} with a count of transforms")
-    law = Relation(transforms.coefficients, transforms.spread)
-    shares = [row["transforms"] / law(row) for row in rows[rows.knob == "warm_start"].to_dict("records")]
-    scene_features = ["bodies", "layers", *(name for name in WORK_FEATURES[kind] if name not in OPTION_FEATURES)]
-    return {
-        "errors": {knob: errors[knob] for knob in ("points", other)},
-        "resolved": errors["resolved"],
-        "transforms": asdict(transforms),
-        "warm_start": _round(np.median(shares or [1.0])),
-        "seconds": _fit_seconds(rows),
-        "ranges": {name: [_round(rows[name].min()), _round(rows[name].max())] for name in scene_features},
-    }
-
-
-def fit_power_law(
-    rows: pd.DataFrame, of: str, names: Sequence[str], prescribed: Mapping[str, float]
-) -> PowerLaw | None:
-    """Fit a straight line through logarithms.
-
-    Parameters
-    ----------
-    rows : pandas.DataFrame
-        Measurements, with a column for each feature, which is a logarithm.
-    of : str
-        Column of the fitted values.
-    names : sequence of str
-        Features.
-    prescribed : mapping
-        Coefficients that are not fitted, by feature.
-
-    Returns
-    -------
-    PowerLaw or None
-        Coefficients, the standard deviation of what remains and the number of rows; None where too few errors lie
-        between noise and the largest error of the asymptotic range.
-    """
-    values = rows[of].to_numpy(float)
-    good = np.isfinite(values) & (values > 0)
-    if of.startswith("error"):
-        good &= (values > NOISE.get(rows.knob.iloc[0], FAINT)) & (values < WRONG)
-    if good.sum() < MIN_ROWS:
-        return None
-    rows, logs = rows[good], np.log(values[good])
-    free = [name for name in names if name not in prescribed]
-    matrix = rows[free].to_numpy(float)
-    rest = logs - sum((rows[name].to_numpy(float) * factor for name, factor in prescribed.items()), np.zeros(len(rows)))
-    penalty = np.sqrt(RIDGE_WEIGHT * max(len(rows), 1)) * np.diag([float(name != "one") for name in free])
-    solution = np.linalg.lstsq(np.vstack([matrix, penalty]), np.concatenate([rest, np.zeros(len(free))]), rcond=None)[0]
-    residual = rest - matrix @ solution
-    if of.startswith("error"):  # errors change their sign: what counts is their size, not the middle of its logarithm
-        solution[free.index("one")] += 0.5 * np.log(np.mean(np.exp(2 * residual)))
-    coefficients = {name: _round(value) for name, value in zip(free, solution, strict=True)} | dict(prescribed)
-    return PowerLaw(coefficients, _round(residual.std()), int(good.sum()))
 
 
 def _fit_seconds(rows: pd.DataFrame) -> dict[str, float]:
@@ -169,7 +120,7 @@ def _fit_seconds(rows: pd.DataFrame) -> dict[str, float]:
     parts = np.stack([rows["count"], rows.transforms, rows.transforms * size * np.log2(size)], axis=1).astype(float)
     begin = np.log(np.median(seconds[:, None] / parts, axis=0) / len(parts.T))
     times = np.exp(least_squares(lambda logs: np.log(parts @ np.exp(logs) / seconds), begin, loss="soft_l1").x)
-    return dict(zip(("step", "transform", "point"), map(_round, times), strict=True))
+    return dict(zip(("step", "transform", "point"), times, strict=True))
 
 
 def _round(value: float) -> float:
@@ -177,9 +128,10 @@ def _round(value: float) -> float:
     return float(f"{value:.4g}")
 
 
-def format_relations(table: pd.DataFrame) -> str:
-    """Return the fitted relations as the text of their file."""
-    head = (
-        "# Relations between error and cost, measured by `snakemake fit_scaling`; see evaluation/calibration/fit.py\n"
-    )
-    return head + yaml.safe_dump(fit_relations(table), sort_keys=False, width=120, default_flow_style=None)
+def format_fit(tables: Sequence[pd.DataFrame]) -> str:
+    """Return the fitted relations as the text of their file, a line each; the coverage factors are logged."""
+    table = pd.concat(tables, ignore_index=True)
+    works = table.dropna(subset="family")
+    families = [f'"{name}": {json.dumps(fit_family(works, name))}' for name in FAMILIES]
+    logger.info("coverage factors of two and of three changes: %s", coverage_factors(table))
+    return "{\n" + ",\n".join(families) + "\n}\n"

@@ -6,17 +6,17 @@ A map varies some settings of one scene, as they are or as ratios of settings. W
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
 import xarray as xr
-import yaml
 
 from contactsim import dataset
 from contactsim.error_control.effect_maps import change_without
-from contactsim.error_control.relations import FILE as RELATIONS
+from contactsim.error_control.scaling import FILE as RELATIONS
 from contactsim.error_control.solution import Solution
 from contactsim.evaluation.effects.map_settings import EffectMap, EffectMaps
 from contactsim.grid import Array
@@ -87,7 +87,7 @@ def map_dataset(effect_map: EffectMap, errors: Array) -> xr.Dataset:
 
 
 def format_maps(maps: Mapping[str, EffectMap], changes: Mapping[str, xr.Dataset]) -> str:
-    """Return maps and their measured changes, both by name, as the text of the file that the package keeps."""
+    """Return maps and their measured changes, both by name, as the text of the package's file, a line each."""
     sections = {}
     for name, data in changes.items():
         settings = asdict(maps[name])
@@ -101,7 +101,4 @@ def format_maps(maps: Mapping[str, EffectMap], changes: Mapping[str, xr.Dataset]
             "axes": settings["axes"],
             "change": [float(f"{value:.3g}") for value in data.change_without.values.ravel()],
         }
-    head = (
-        "# Change on neglecting effects, measured by `snakemake export_effect_maps`; see evaluation/effects/survey.py\n"
-    )
-    return head + yaml.safe_dump(sections, sort_keys=False, width=120, default_flow_style=None)
+    return "{\n" + ",\n".join(f'"{name}": {json.dumps(section)}' for name, section in sections.items()) + "\n}\n"

@@ -83,10 +83,6 @@ class UntilReattached:
         """Check as the other way does."""
         self.increments.check(points, steps, solver)
 
-    def coarsened(self, factor: int) -> UntilReattached:
-        """Return the same with the other way for a coarser grid."""
-        return UntilReattached(self.increments.coarsened(factor), self.slips)
-
     def follow(
         self, problem: CohesiveProblem, solver: CohesiveSolver, steps: Sequence[LoadStep]
     ) -> Iterator[PathState]:

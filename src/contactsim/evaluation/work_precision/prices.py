@@ -16,13 +16,13 @@ import numpy as np
 import xarray as xr
 
 from contactsim import dataset
-from contactsim.error_control.control import solve_to_error
-from contactsim.error_control.forecast import UNIT_POINTS, forecast_setup, forecast_to_error, transform_seconds
-from contactsim.error_control.relations import FILE
-from contactsim.error_control.stepwise import has_relations
+from contactsim.error_control.forecast import forecast_setup, forecast_to_error, transform_seconds
+from contactsim.error_control.ladder import largest_error, solve_to_error, solve_with_errors
+from contactsim.error_control.options import choose_options, coarser_setups
+from contactsim.error_control.scaling import FILE
+from contactsim.error_control.solution import solve_setup
 from contactsim.errors import InputError
 from contactsim.evaluation.figure_settings import FIGURE_KEYS, FigureSettings
-from contactsim.evaluation.work_precision.cases import Case
 from contactsim.paths.options import Setup
 from contactsim.provenance import digest
 from contactsim.solvers.registry import solver_module
@@ -38,10 +38,10 @@ NAME = "price_of_accuracy"
 KEYS = FIGURE_KEYS | {
     "errors": Key(listed(ACCURACY_KEYS["error"].kind), "a list of relative errors, above 0 and below 1"),
     "limit": Key(positive, "transforms of 4096 points, above which a run is forecast and not solved"),
-    "scenes": Key(mapping, "a mapping from names to a title, a study and a case of accuracy.yaml"),
+    "scenes": Key(mapping, "a mapping from names to a title and a study"),
 }
 GROWTH = 4.0
-"""Cost of a run over that of the one before it, where costs are not forecast."""
+"""Least cost of a run over that of the one before it, from which its cost is expected too."""
 
 
 @dataclass(frozen=True)
@@ -56,14 +56,11 @@ class PricedScene:
         Settings of the first run of its study.
     thesis_points
         Points of the thesis; None where it has no such scene.
-    case
-        Case of the work-precision study that compares solvers on it; None without one.
     """
 
     title: str
     run: Mapping[str, Any]
     thesis_points: int | None
-    case: str | None
 
     @property
     def setup(self) -> Setup:
@@ -94,7 +91,7 @@ class Prices(FigureSettings):
     scenes: Mapping[str, PricedScene]
 
 
-def read_prices(folder: str | Path, plan: Plan, cases: Mapping[str, Case]) -> Prices | None:
+def read_prices(folder: str | Path, plan: Plan) -> Prices | None:
     """Return the settings of price_of_accuracy.yaml at the plan's tier; None without that file."""
     source = tiered(Path(folder) / f"{NAME}.yaml", plan.overrides[NAME], plan.tier)
     if source is None:
@@ -104,14 +101,13 @@ def read_prices(folder: str | Path, plan: Plan, cases: Mapping[str, Case]) -> Pr
     keys = {
         "title": Key(text, "a line of text"),
         "study": Key(choice(tuple(plan.studies)), "the name of a study"),
-        "case": Key(choice(tuple(cases)), f"a case of accuracy.yaml, which has {', '.join(cases) or 'none'}", None),
     }
     scenes = {}
     for name, scene in settings["scenes"].items():
         keyed = read(scene, keys, file, f"scenes.{name}")
         study = plan.studies[keyed["study"]]
         run = study.runs()[0].settings
-        scenes[name] = PricedScene(keyed["title"], run, study.settings["thesis_points"], keyed["case"])
+        scenes[name] = PricedScene(keyed["title"], run, study.settings["thesis_points"])
     return Prices(**settings | {"scenes": scenes})
 
 
@@ -129,7 +125,6 @@ def prices_figure_job(prices: Prices, tier: str) -> dict[str, Any]:
     return {
         "settings": prices.layout,
         "titles": {name: scene.title for name, scene in prices.scenes.items()},
-        "cases": {name: scene.case for name, scene in prices.scenes.items() if scene.case},
         "tier": tier,
         "source": stage_digest("price_figure"),
         "data": digest([price_job(prices, name) for name in prices.scenes]),
@@ -147,20 +142,20 @@ def measure_price(job: PriceJob) -> tuple[xr.Dataset, dict[str, Any]]:
         CPU seconds of each run that was solved, and of one transform of 4096 points.
     """
     setup = job.scene.setup
-    has_forecast, rows, last = has_relations(setup.scene), [], 0.0
+    rows, last = [], 0.0
     seconds: list[float] = []
     for error in job.errors:
-        units = _predicted_units(setup, error) if has_forecast else np.nan
+        units = _predicted_units(setup, error)
         row = {"predicted_units": units}
-        if (units if has_forecast else GROWTH * last) <= job.limit:
+        if np.fmax(units, GROWTH * last) <= job.limit:
             if not seconds:
-                solve_to_error(setup, error)  # compiles the kernels
+                solve_setup(coarser_setups(choose_options(setup, error))[0], ())  # compiles the kernels
             begin = time.process_time()
             result = solve_to_error(setup, error)
             seconds.append(time.process_time() - begin)
-            last = result.work * result.last.size / UNIT_POINTS
+            last = seconds[-1] / transform_seconds()
             row |= {
-                "predicted_error": max(float(values.max()) for values in result.errors.values()),
+                "predicted_error": largest_error(result.errors),
                 "accuracy_reached": int(result.met),
                 "points": result.last.points,
                 "work": result.work * result.last.size,
@@ -168,22 +163,23 @@ def measure_price(job: PriceJob) -> tuple[xr.Dataset, dict[str, Any]]:
         rows.append({"predicted_error": np.nan, "accuracy_reached": -1, "points": -1, "work": np.nan} | row)
     values = {name: ("requested_error", [row[name] for row in rows]) for name in rows[0]}
     data = xr.Dataset(values, {"requested_error": list(job.errors)})
-    data = data.assign(dict(zip(("thesis_error", "thesis_units"), _price_of_thesis(job.scene), strict=True)))
+    data = data.assign(dict(zip(("thesis_error", "thesis_units"), _price_of_thesis(job), strict=True)))
     return dataset.describe(data), {"seconds": seconds, "transform_seconds": transform_seconds()}
 
 
 def _predicted_units(setup: Setup, error: float) -> float:
-    """Return the time of a run to an error; NaN for an error that no affordable grid reaches."""
+    """Return the time of a run to an error; NaN if it cannot be forecast."""
     try:
         return forecast_to_error(setup, error).units
     except InputError:
         return np.nan
 
 
-def _price_of_thesis(scene: PricedScene) -> tuple[float, float]:
-    """Return expected error and units of time on the thesis's grid, by our solver; NaN where it is not forecast."""
-    setup = scene.setup
-    if scene.thesis_points is None or not has_relations(setup.scene):
+def _price_of_thesis(job: PriceJob) -> tuple[float, float]:
+    """Return error and units of time on the thesis's grid, by our solver; NaN where that takes too long."""
+    points = job.scene.thesis_points
+    setup = job.scene.setup.with_options(points=points, accuracy=None, increments=None)
+    if points is None or forecast_setup(setup).units > job.limit:
         return np.nan, np.nan
-    forecast = forecast_setup(setup.with_options(points=scene.thesis_points))
-    return max(forecast.errors.values()), forecast.units
+    result = solve_with_errors(setup)
+    return largest_error(result.errors), result.last.seconds / transform_seconds()

@@ -30,12 +30,6 @@ LOOKS = {
 """Marker and colour of each kind: red for lines and blue for surfaces at a hard wall, green with adhesion, violet with
 friction."""
 OTHER_LOOK = ("h", style.BROWN)
-EQUAL_TABLE = "accuracy_{}_at_equal_error"
-"""Name of the table in which a case compares solvers, without its ending."""
-METHODS = ("verlet", "damped_verlet")
-"""The method of the thesis, at a hard wall and with cohesive laws."""
-LEVEL, LEVEL_RATIO = 0.01, 5.0
-"""Error near which methods are compared, and how far from it at most."""
 FORECAST: Any = (0, (4, 3))
 """Line of forecasts beyond the last run that was solved."""
 TIMES = {1.0: "1 s", 60.0: "1 min", 3600.0: "1 h"}
@@ -43,7 +37,7 @@ TIMES = {1.0: "1 s", 60.0: "1 min", 3600.0: "1 h"}
 TICKS = (0.1, 0.01, 1e-3, 1e-4)
 """Errors with a label."""
 LABEL_PLACE, HIGHEST_LABEL = 0.77, 0.97
-"""Where labels of lines that reach the smallest error begin, and the highest of them, over width and height."""
+"""Where labels begin, and the highest of them, over width and height."""
 LABEL_GAP = 0.045
 """Least distance of labels, over the height of the panel."""
 LABEL_ROOM = 0.42
@@ -57,17 +51,11 @@ def write_prices(plan: Mapping[str, Any], files: Mapping[str, Sequence[str]], ta
     Parameters
     ----------
     plan : of `contactsim.evaluation.work_precision.prices.prices_figure_job`
-    files : data and costs, named after their scenes; equal, tables of cases (`EQUAL_TABLE`); in any order
+    files : data and costs, named after their scenes, in any order
     targets : png, pdf, svg and csv
     """
-    data, costs, equal = ({Path(path).stem: path for path in files[kind]} for kind in ("data", "costs", "equal"))
-    factors = {
-        scene: method_factor(pd.read_csv(equal[EQUAL_TABLE.format(case)])) for scene, case in plan["cases"].items()
-    }
-    tables = [
-        price_table(data[scene], costs[scene]).assign(scene=scene, factor=factors.get(scene, np.nan))
-        for scene in plan["titles"]
-    ]
+    data, costs = ({Path(path).stem: path for path in files[kind]} for kind in ("data", "costs"))
+    tables = [price_table(data[scene], costs[scene]).assign(scene=scene) for scene in plan["titles"]]
     table = pd.concat(tables, ignore_index=True)
     figure, (panel,) = empty_figure(plan["settings"] | {"panels": 1}, footer_text(table, plan["tier"]))
     plot_prices(panel, table, plan["titles"])
@@ -95,17 +83,8 @@ def price_table(data: str, costs: str) -> pd.DataFrame:
     return table.assign(predicted_seconds=table.predicted_units * unit, thesis_seconds=table.thesis_units * unit)
 
 
-def method_factor(equal: pd.DataFrame) -> float:
-    """Return the time of the method of the thesis over ours, at the error of the tolerance nearest to 1 %; else NaN."""
-    rows = equal[equal.solver.isin(METHODS) & (equal.knob == "tolerance") & equal.seconds.notna()]
-    distances = np.abs(np.log(rows.error / LEVEL)).to_numpy()
-    if not (distances <= np.log(LEVEL_RATIO)).any():
-        return np.nan
-    return float(rows.seconds.iloc[int(distances.argmin())])
-
-
 def plot_prices(axes: Axes, table: pd.DataFrame, titles: Mapping[str, str]) -> None:
-    """Plot the scenes: forecast and solved, the thesis's grid, and a label with the factor of its method."""
+    """Plot the scenes: forecast and solved, the thesis's grid, and a label."""
     least, most = table.requested_error.min(), table.requested_error.max()
     ends = {}
     for name, rows in table.groupby("scene", sort=False):
@@ -119,11 +98,10 @@ def plot_prices(axes: Axes, table: pd.DataFrame, titles: Mapping[str, str]) -> N
         first = rows.iloc[0]
         for symbol, size, face in (("o", 11, "none"), (marker, 4, colour)):
             axes.plot(first.thesis_error, first.thesis_seconds, marker=symbol, ms=size, color=colour, mfc=face, ls="")
-        seconds = rows.predicted_seconds.fillna(rows.seconds)
+        seconds = rows.seconds.fillna(rows.predicted_seconds)
         last = seconds.last_valid_index()
         if last is not None:
-            factor = f" ({first.factor:.2g} ×)" if np.isfinite(first.factor) else ""
-            ends[titles[str(name)] + factor] = rows.requested_error[last], seconds[last], marker, colour
+            ends[titles[str(name)]] = rows.requested_error[last], seconds[last], marker, colour
     axes.set(xscale="log", yscale="log", xlabel="relative error asked for", ylabel="CPU time on one core (s)")
     axes.set_xlim(most * 1.3, least * (least / most) ** LABEL_ROOM)
     ticks = [value for value in TICKS if least * 0.99 <= value <= most * 1.01]
@@ -145,23 +123,16 @@ def _add_times(axes: Axes) -> None:
 
 
 def _add_labels(axes: Axes, ends: Mapping[str, tuple[float, float, str, str]]) -> None:
-    """Write a label beside the end of each line; those that reach the smallest error one above the other."""
-    least = min((error for error, *_ in ends.values()), default=0.0)
-    column = {text: end for text, end in ends.items() if end[0] == least}
-    for text, (error, seconds, marker, colour) in ends.items():
-        if text not in column:
-            axes.plot(error, seconds, marker=marker, ms=4, ls="", color=colour)
-            look: dict[str, Any] = {"fontsize": 7.5, "color": colour, "ha": "right", "va": "bottom"}
-            axes.annotate(text, (error, seconds), (-4, 6), textcoords="offset points", **look)
+    """Write the labels of all lines one above the other, each joined with the end of its line."""
     low, high = np.log(axes.get_ylim())
-    order = sorted(column, key=lambda text: column[text][1])
+    order = sorted(ends, key=lambda text: ends[text][1])
     places: list[float] = []
     for text in order:
-        place = float((np.log(column[text][1]) - low) / (high - low))
+        place = float((np.log(ends[text][1]) - low) / (high - low))
         places.append(max(place, places[-1] + LABEL_GAP) if places else place)
     excess = max(places[-1] - HIGHEST_LABEL, 0.0) if places else 0.0
     for text, place in zip(order, places, strict=True):
-        error, seconds, marker, colour = column[text]
+        error, seconds, marker, colour = ends[text]
         mark = LABEL_PLACE - 0.015, place - excess
         axes.plot(*mark, marker=marker, ms=4, ls="", color=colour, transform=axes.transAxes, clip_on=False)
         axes.text(LABEL_PLACE, mark[1], text, transform=axes.transAxes, fontsize=7.5, color=colour, va="center")

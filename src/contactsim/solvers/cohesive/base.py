@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from contactsim.contact.cohesive import CohesiveProblem
 from contactsim.grid import Array
 from contactsim.solvers.base import Solver
 from contactsim.status import Status
 from contactsim.traits import Trait
+
+if TYPE_CHECKING:
+    from contactsim.contact.cohesive import CohesiveProblem
 
 CONTROLS = {Trait.APPROACH, Trait.MEAN_PRESSURE, Trait.SLIDE}
 SMOOTH_PATHS = frozenset(
@@ -117,7 +119,7 @@ def cannot_carry_load(problem: CohesiveProblem, gap: Array) -> bool:
     if problem.load is None:
         return False
     farthest = SEPARATION * problem.interaction_range
-    if gap[0].min() > farthest:
+    if gap[0].min() > farthest and float(problem.law.traction(gap)[0].max()) < -problem.load:
         return True
     if not gap[0].max() < -farthest:
         return False

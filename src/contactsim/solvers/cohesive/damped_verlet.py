@@ -19,8 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.contact.cohesive import CohesiveProblem
-from contactsim.contact.tangent import Tangent, contract
+from contactsim.contact.cohesive import CohesiveProblem, Tangent, contract
 from contactsim.errors import POSITIVE, InputError, is_positive
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, cannot_carry_load, largest_change, status_of

@@ -22,8 +22,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contactsim.contact.cohesive import CohesiveProblem
-from contactsim.contact.tangent import Tangent
+from contactsim.contact.cohesive import CohesiveProblem, Tangent
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import Equilibrium, cannot_carry_load, largest_change
 from contactsim.solvers.cohesive.zone_preconditioner import ZonePreconditioner

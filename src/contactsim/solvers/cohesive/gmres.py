@@ -12,6 +12,8 @@ import numpy as np
 
 from contactsim.grid import Array
 
+LEAST_LEFT = 0.1
+"""Part of a vector's length down to which it is made orthogonal once, not twice."""
 LinearMap = Callable[[Array], Array]
 
 
@@ -70,12 +72,17 @@ def gmres(
 
 
 def _orthogonalise(vector: Array, basis: Array, entries: Array) -> None:
-    """Take from a vector its parts along an orthonormal basis; add them, and write its norm, to a column of H."""
-    for _ in range(2):  # the second pass removes what rounding has left
-        shares = basis @ vector
+    """Take from a vector its parts along an orthonormal basis; add them, and write its norm, to a column of H.
+
+    Where little of it is left, so that rounding counts, a second pass takes what the first has left.
+    """
+    for _ in range(2):
+        size, shares = np.linalg.norm(vector), basis @ vector
         vector -= shares @ basis
         entries[:-1] += shares
-    entries[-1] = np.linalg.norm(vector)
+        entries[-1] = np.linalg.norm(vector)
+        if entries[-1] > LEAST_LEFT * size:
+            break
 
 
 def _eliminate(entries: Array, right: Array, rotations: list[tuple[float, float]]) -> bool:

@@ -7,6 +7,7 @@ Coefficients and nodes are rows, as in `contactsim.contact.cohesive`.
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -100,9 +101,17 @@ class SurfaceWaves:
 
     def differences(self, zone: Array) -> Array:
         """Return for each pair of nodes (zone, zone) the node as far from the first node as they are apart."""
-        places = np.unravel_index(zone, self._grid.shape)
-        apart = [(part[:, None] - part) % size for part, size in zip(places, self._grid.shape, strict=True)]
-        return np.ravel_multi_index(tuple(apart), self._grid.shape)
+        ny, nx = self._grid.shape
+        y, x = np.unravel_index(zone, self._grid.shape)
+        wide = 2 * nx - 1  # differences are from 1 - n to n - 1: they are looked up, since remainders take long
+        place = y * wide + x
+        return self._apart[np.subtract.outer(place, place) + ((ny - 1) * wide + nx - 1)]
+
+    @cached_property
+    def _apart(self) -> Array:
+        """Node of each difference of rows and columns, each from 1 - n to n - 1, in a row."""
+        rows, columns = (np.arange(1 - size, size) % size for size in self._grid.shape)
+        return (rows[:, None] * self._grid.shape[1] + columns).ravel()
 
 
 WAVES: dict[int, type[LineWaves] | type[SurfaceWaves]] = {1: LineWaves, 2: SurfaceWaves}

@@ -17,11 +17,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from contactsim.contact.cohesive import CohesiveProblem
-from contactsim.contact.tangent import Tangent
+from contactsim.contact.cohesive import CohesiveProblem, Tangent
+from contactsim.contact.wall import correct_wall
 from contactsim.errors import InputError
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import SMOOTH_PATHS, Equilibrium, largest_change, status_of
+from contactsim.solvers.cohesive.convex_steps import settle
 from contactsim.solvers.cohesive.descent import descend
 from contactsim.solvers.cohesive.linearised import find_growth, newton_forcing, solve_linearised
 from contactsim.solvers.cohesive.overdamped_flow import MAX_NUDGES, NUDGE, flow
@@ -39,6 +40,10 @@ MAX_STALL = 0.5
 trust radius. An iteration that converges reduces it more; beyond the end of a branch there is no state to reach."""
 MAX_SHARED_ITERATIONS = 5
 """A preconditioner is made anew after a linear solve with more iterations than this."""
+CORRECTION_STEPS, MAX_CORRECTED = 3, 60
+"""Newton steps that a correction of a wall's pressure may take, and their number above which it is not corrected."""
+SHORT_STEPS = 150
+"""Short steps down the energy, after which the rest of a motion is done in convex ones."""
 STEP_DIVISIONS = 1, 3
 """Parts into which the largest step of a flow is divided, one after the other, until the flow comes to rest."""
 
@@ -115,18 +120,24 @@ class NewtonKrylov:
         """Return the state that Newton's method reaches from a guess."""
         displacement, far, distance = guess, MAX_CHANGE_RATIO * within, 0.0
         is_near = within <= self.trust_radius * problem.interaction_range
-        worst, worst_near = np.inf, MAX_RESIDUAL if is_near else np.inf
-        for count in range(self.newton_budget + 1):
+        worst, worst_near, count, budget = np.inf, MAX_RESIDUAL if is_near else np.inf, 0, self.newton_budget
+        while True:
             gap = problem.gap(displacement)
             traction, tangent = problem.tangent(gap)
             residual = problem.residual(displacement, traction)
             before, worst = worst, problem.norm(residual)
             stalls = is_near and count > 1 and worst > MAX_STALL * before
+            corrected = correct_wall(problem, gap) if worst <= problem.tolerance and budget < MAX_CORRECTED else None
+            if corrected is not None:  # by little, and the residual grows: no sign of a branch's end
+                problem, is_near, worst_near, budget = corrected, False, np.inf, budget + CORRECTION_STEPS
+                traction, tangent = problem.tangent(gap)
+                residual = problem.residual(displacement, traction)
+                worst = problem.norm(residual)
             if count:
                 distance = largest_change(problem, displacement - guess, self.trust_radius * problem.interaction_range)
             if (
                 worst <= problem.tolerance
-                or count == self.newton_budget
+                or count == budget
                 or stalls
                 or not (np.isfinite(worst) and worst <= worst_near and distance <= far)
             ):
@@ -135,7 +146,7 @@ class NewtonKrylov:
             forcing = newton_forcing(problem, worst)
             change, iterations = solve_linearised(tangent, precondition, residual, forcing, self.krylov_budget)
             memory.record(iterations)
-            displacement = displacement + change
+            displacement, count = displacement + change, count + 1
         status = status_of(worst, problem)
         unstable = False
         if status is Status.CONVERGED:
@@ -162,7 +173,7 @@ class NewtonKrylov:
 
     def _descend(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
         """Return the stable minimum of the energy below a state; one that is not stable is left."""
-        state = descend(problem, start, self.flow_budget)
+        state = self._go_down(problem, start)
         iterations, nudge = state.iterations, NUDGE * problem.interaction_range
         for _ in range(MAX_NUDGES):
             if state.status is not Status.CONVERGED:
@@ -173,9 +184,19 @@ class NewtonKrylov:
                 break
             residual = problem.residual(state.displacement, state.traction)
             downhill = 1 if np.vdot(growing.wave, residual * problem.mode_weights).real <= 0 else -1
-            state = descend(problem, state.displacement + downhill * nudge * growing.wave, self.flow_budget)
+            state = self._go_down(problem, state.displacement + downhill * nudge * growing.wave)
             iterations += state.iterations
             nudge *= 2  # the state beside the unstable one may be an equilibrium to the tolerance, too
         else:
             state = replace(state, status=Status.MAX_ITERATIONS)
         return replace(state, largest_change=largest_change(problem, state.displacement - start), iterations=iterations)
+
+    def _go_down(self, problem: CohesiveProblem, start: Array) -> Equilibrium:
+        """Return a minimum of the energy below a state, in convex steps where short ones do not get there."""
+        state = descend(problem, start, min(SHORT_STEPS, self.flow_budget))
+        if state.status is not Status.MAX_ITERATIONS:
+            return state
+        rest = settle(problem, state.displacement, self.flow_budget)
+        if rest is None or rest.status is Status.MAX_ITERATIONS:
+            rest = descend(problem, state.displacement, self.flow_budget)
+        return replace(rest, iterations=state.iterations + rest.iterations)

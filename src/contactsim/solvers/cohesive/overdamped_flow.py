@@ -14,8 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from contactsim.contact.cohesive import CohesiveProblem
-from contactsim.contact.tangent import Tangent
+from contactsim.contact.cohesive import CohesiveProblem, Tangent
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.base import Equilibrium, cannot_carry_load, largest_change
 from contactsim.solvers.cohesive.linearised import Growth, find_growth, newton_forcing, solve_linearised

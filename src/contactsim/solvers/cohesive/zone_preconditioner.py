@@ -20,8 +20,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from contactsim.contact.cohesive import CohesiveProblem
-from contactsim.contact.tangent import Tangent
+from contactsim.contact.cohesive import CohesiveProblem, Tangent
 from contactsim.elasticity.symbol import Symbol
 from contactsim.grid import Array
 from contactsim.solvers.cohesive.long_waves import WAVES, LongWaves, node_averages
@@ -128,6 +127,7 @@ class ZonePreconditioner:
         self._factors: ZoneFactors | None = None
         if not len(self._zone):
             return
+        self._problem.counter.add_factors(len(values) * len(self._zone))
         tangent, apart = values[..., self._zone], self._waves.differences(self._zone)
         if values.shape[:2] == (1, 1):
             self._factors = SymmetricFactors(tangent[0, 0], self._responses[0][0][apart])

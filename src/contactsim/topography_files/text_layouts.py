@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from contactsim.errors import InputError, Words
 from contactsim.grid import Array
-from contactsim.surfaces import io
-from contactsim.surfaces.io import TOLERANCE, RawHeights
-from contactsim.surfaces.missing import MAX_SHARE, REMEDY
-from contactsim.surfaces.text import Text
+from contactsim.topography_files import io
+from contactsim.topography_files.io import TOLERANCE, RawHeights
+from contactsim.topography_files.missing import MAX_SHARE, REMEDY
+from contactsim.topography_files.text import Text
 
 MISSING_ROUNDING = 1e-5
 """Relative rounding of the height that stands for a missing point, in a grid of a geographic system."""

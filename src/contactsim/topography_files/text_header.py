@@ -15,7 +15,7 @@ from functools import cached_property
 from pathlib import Path
 
 from contactsim.errors import InputError, Words
-from contactsim.surfaces import io
+from contactsim.topography_files import io
 
 WIDTH, HEIGHT = ("width", "breite"), ("height", "höhe")
 """Names of the length along x and along y."""

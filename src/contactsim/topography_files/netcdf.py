@@ -11,9 +11,9 @@ import numpy as np
 
 from contactsim.errors import InputError
 from contactsim.grid import Array
-from contactsim.surfaces import io
-from contactsim.surfaces.classic_netcdf import least_length
-from contactsim.surfaces.io import RawHeights
+from contactsim.topography_files import io
+from contactsim.topography_files.classic_netcdf import least_length
+from contactsim.topography_files.io import RawHeights
 
 
 def read_netcdf(file: Path, dimensions: int | None, unit: str | None, variable: str | None) -> RawHeights:

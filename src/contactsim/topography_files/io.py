@@ -57,10 +57,8 @@ RawHeights = tuple[Array, tuple[float | None, ...]]
 """Heights (n,) or (ny, nx), and the spacing in each direction, x last, None where the file states none; nm."""
 
 
-def existing_path(path: object) -> Path:
+def existing_path(path: str | Path) -> Path:
     """Return the path of an existing file; InputError otherwise."""
-    if not isinstance(path, str | Path):
-        raise InputError("path", Words(type(path).__name__), "the name of a file, a str or Path")
     if not Path(path).is_file():
         raise InputError("path", path, "an existing file", path)
     return Path(path)

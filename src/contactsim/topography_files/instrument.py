@@ -6,8 +6,8 @@ import importlib
 from pathlib import Path
 
 from contactsim.errors import InputError
-from contactsim.surfaces import io
-from contactsim.surfaces.io import RawHeights
+from contactsim.topography_files import io
+from contactsim.topography_files.io import RawHeights
 
 LIBRARY = "SurfaceTopography"
 

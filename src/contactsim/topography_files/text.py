@@ -12,9 +12,9 @@ import numpy as np
 
 from contactsim.errors import NOTHING, InputError, Words
 from contactsim.grid import Array
-from contactsim.surfaces import io
-from contactsim.surfaces.text_header import CELLS, Header, bracketed_units, units_behind_slashes
-from contactsim.surfaces.text_lines import Line, check_size, open_text, read_lines
+from contactsim.topography_files import io
+from contactsim.topography_files.text_header import CELLS, Header, bracketed_units, units_behind_slashes
+from contactsim.topography_files.text_lines import Line, check_size, open_text, read_lines
 
 MAX_HEADER_LINES = 1000
 """Most lines before the numbers."""

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import IO, NamedTuple
 
 from contactsim.errors import InputError
-from contactsim.surfaces import io
+from contactsim.topography_files import io
 
 MAX_TEXT, CHUNK = 32 * io.MAX_HEIGHTS, 2**20
 """Most bytes of a text, and how many of a compressed one are counted at a time."""

@@ -1,1 +1,0 @@
-"""Source code of modules, read as what it computes."""
