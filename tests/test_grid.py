@@ -5,7 +5,7 @@ import pytest
 
 from contactsim.elasticity.fourier_operator import FourierOperator, RadialSymbol
 from contactsim.errors import InputError
-from contactsim.grid import Grid, TransformCounter
+from contactsim.grid import Grid, OutOfWorkError, TransformCounter
 
 SIZES = (2, 3, 8, 101, 1024)
 
@@ -85,3 +85,18 @@ def test_a_radial_symbol_by_rows_folded_and_held_is_the_whole_one(shape):
     operator.hold_symbol()
     np.testing.assert_array_equal(operator(field), before)
     np.testing.assert_allclose(before, grid.backward(grid.forward(field) * whole), atol=1e-14)
+
+
+def test_dense_matrices_are_paid_from_the_work_granted_but_count_as_no_transforms():
+    counter = TransformCounter(1024)
+    counter.add_factors(40)
+    few, spent = counter.spent, counter.spent
+    counter.add_factors(80)
+    assert counter.spent - spent == pytest.approx(8 * few)  # an unknown cubed
+    assert counter.transforms == 0
+    with counter.granted(10):
+        counter.add(5, 1024)
+        counter.add_factors(1000)
+        with pytest.raises(OutOfWorkError):
+            counter.add(1, 1024)
+    counter.add(1000, 1024)  # nothing is limited any more

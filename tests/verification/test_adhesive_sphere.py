@@ -49,6 +49,26 @@ def test_a_product_on_the_padded_grid_is_that_of_the_hard_wall():
     assert problem.on_heights(moved)[0] == pytest.approx(whole @ pressure.ravel(), rel=1e-9, abs=1e-9)
 
 
+@pytest.mark.parametrize("sides", [(slice(12), slice(12, 24)), (slice(12, 24), slice(12, 24))])
+def test_what_is_left_beyond_the_heights_counts_as_what_would_move_them_as_much(sides):
+    scene = cs.Scene(
+        cs.FreeHalfSpace(2.0),
+        cs.Topography(np.zeros((12, 12)), (3.0, 3.0)),
+        cs.NormalCohesiveZone(work_of_separation=WORK, normal_length=1.0),
+        cs.approaches([0.0]),
+    )
+    problem = pose_cohesive(scene, scene.heights(12), 1e-9)
+    left = np.zeros(problem.grid.shape)
+    left[sides] = problem.strength
+    residual = problem.coefficients(left.reshape(1, -1))
+    moved = problem.on_heights(problem.field(residual / problem.stiffness.diagonal))[0]
+    response = rectangle_response(np.arange(12), np.arange(12), 1.0) * 3.0 / 12 / 2.0
+    rows, columns = np.indices((12, 12)).reshape(2, -1)
+    whole = response[np.abs(rows[:, None] - rows), np.abs(columns[:, None] - columns)]
+    alike = np.abs(np.linalg.solve(whole, moved)).max() / problem.strength
+    assert 1.5 < alike <= problem.norm(residual)
+
+
 def test_the_stored_state_is_in_equilibrium_by_a_sum_over_elements():
     data = pulled(1.0, 24, (0.0, -4.0), snapshots=[-4.0], tolerance=1e-8)
     state, step = data.isel(snapshot=-1), 360.0 / 24
