@@ -62,7 +62,7 @@ def test_what_is_left_beyond_the_heights_counts_as_what_would_move_them_as_much(
     left[sides] = problem.strength
     residual = problem.coefficients(left.reshape(1, -1))
     moved = problem.on_heights(problem.field(residual / problem.stiffness.diagonal))[0]
-    response = rectangle_response(np.arange(12), np.arange(12), 1.0) * 3.0 / 12 / 2.0
+    response = rectangle_response(np.arange(12), np.arange(12), 1.0) * 3.0 / 2.0
     rows, columns = np.indices((12, 12)).reshape(2, -1)
     whole = response[np.abs(rows[:, None] - rows), np.abs(columns[:, None] - columns)]
     alike = np.abs(np.linalg.solve(whole, moved)).max() / problem.strength
