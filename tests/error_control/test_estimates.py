@@ -9,7 +9,7 @@ import pytest
 
 from contactsim import HalfSpace, HardWall, Scene, Sphere, pressures
 from contactsim.error_control import neglect
-from contactsim.error_control.estimates import FACTORS, ORDERS, tell_error, told_changes
+from contactsim.error_control.estimates import FACTORS, ORDER, tell_error, told_changes
 from contactsim.error_control.ladder import Controlled
 from contactsim.paths.options import RunOptions, Setup
 
@@ -20,41 +20,29 @@ def ratios(grids):
     return [fine / coarse for coarse, fine in itertools.pairwise(grids)]
 
 
-@pytest.mark.parametrize("order", [0.5, 1.0, 1.3, 1.5])
 @pytest.mark.parametrize("grids", GRIDS)
-def test_errors_that_fall_with_a_power_are_told_exactly_but_for_the_factor(grids, order):
-    values = [np.array([1.0 + 3.0 * points**-order]) for points in grids]
-    assert tell_error(values, ratios(grids)) == pytest.approx(
-        FACTORS[len(grids) - 1] * 3.0 * grids[-1] ** -order, rel=2e-3
-    )
-
-
-def test_all_changes_of_the_highest_order_say_the_same():
-    for grids in GRIDS:
-        values = [np.array([1.0 + 3.0 * points ** -ORDERS[-1]]) for points in grids]
-        assert np.ravel(told_changes(values, ratios(grids))) == pytest.approx(3.0 * grids[-1] ** -ORDERS[-1])
+def test_errors_that_fall_as_expected_are_told_exactly_by_each_change(grids):
+    values = [np.array([1.0 + 3.0 * points**-ORDER]) for points in grids]
+    assert np.ravel(told_changes(values, ratios(grids))) == pytest.approx(3.0 * grids[-1] ** -ORDER)
+    count = len(grids) - 1
+    assert tell_error(values, ratios(grids)) == pytest.approx(FACTORS[count] * count * 3.0 * grids[-1] ** -ORDER)
 
 
 def test_one_change_tells_nothing_and_fewer_say_less():
-    assert FACTORS[2] > FACTORS[3] >= 1
+    assert 2 * FACTORS[2] > 3 * FACTORS[3] >= 1
     assert np.isinf(tell_error([np.array([1.0]), np.array([1.0])], (2.0,)))
 
 
-@pytest.mark.parametrize("order", [0.5, 0.7, 1.0, 2.0, 3.0])
-def test_errors_of_other_orders_are_covered(order):
-    grids = (16, 45, 128, 181)
+@pytest.mark.parametrize("order", [0.7, 1.0, 2.0, 3.0])
+@pytest.mark.parametrize("grids", [(16, 32, 64), (16, 32, 64, 128), (16, 32, 64, 91)])
+def test_errors_of_other_orders_are_covered(grids, order):
     values = [np.array([1.0 + points**-order]) for points in grids]
-    assert tell_error(values, ratios(grids)) >= 0.99 * grids[-1] ** -order
+    assert tell_error(values, ratios(grids)) >= grids[-1] ** -order
 
 
 def test_a_last_change_that_is_small_by_chance_does_not_hide_the_one_before():
     values = [np.array([value]) for value in (1.1, 1.0, 1.0)]
-    assert tell_error(values, (2.0, 2.0)) == pytest.approx(FACTORS[2] * 0.1 / (2**1.5 - 1) / 2**1.5)
-
-
-def test_changes_that_do_not_fall_have_the_lowest_order():
-    values = [np.array([value]) for value in (1.0, 1.1, 1.0, 1.1)]
-    assert tell_error(values, (2.0, 2.0, 2.0)) == pytest.approx(FACTORS[3] * 0.1 / (2**0.5 - 1))
+    assert tell_error(values, (2.0, 2.0)) == pytest.approx(FACTORS[2] * 0.1 / (2**ORDER - 1) / 2**ORDER)
 
 
 @pytest.mark.parametrize("missing", [np.nan, np.inf])

@@ -17,7 +17,7 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.contact.problem_kind import ProblemKind
-from contactsim.error_control.estimates import ORDERS, tell_error
+from contactsim.error_control.estimates import ORDER, tell_error
 from contactsim.error_control.measured import is_measured, thin_out
 from contactsim.error_control.options import (
     MIN_RATIO,
@@ -185,7 +185,7 @@ def _climb(expected: Setup, quantities: Sequence[str], error: float | None) -> C
 def _finer_setups(run: Solution, excess: float) -> list[Setup]:
     """Return a finer setup than a run's for an error that many times too large; none beyond largest grid and work."""
     setup = run.setup
-    ratio = RATIO if math.isinf(excess) else min(max((excess / SAFETY) ** (1 / ORDERS[-1]), MIN_RATIO), RATIO)
+    ratio = RATIO if math.isinf(excess) else min(max((excess / SAFETY) ** (1 / ORDER), MIN_RATIO), RATIO)
     if is_measured(setup.scene):
         return []
     has_increments = setup.scene.path.increment is not None
@@ -203,7 +203,8 @@ def _finer_setups(run: Solution, excess: float) -> list[Setup]:
 
 def estimate_error(runs: Sequence[Solution], name: str) -> Array:
     """Return the relative error of a quantity of the last of some runs, each finer than the one before."""
-    error, value, setup = tell_error(*told_values(runs, name)), np.abs(runs[-1].values[name]), runs[-1].setup
+    value, setup = np.abs(runs[-1].values[name]), runs[-1].setup
+    error = np.fmax(tell_error(*told_values(runs, name)), runs[-1].increment_errors.get(name, 0.0))
     relative = np.full(value.shape, np.inf)
     np.divide(error, value, out=relative, where=value > 0)
     relative[(error == 0) & np.isfinite(value)] = 0.0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import xarray as xr
@@ -29,11 +29,14 @@ class Solution:
         The dataset of the path, with dimension `step`.
     values : dict from str to Array
         Quantities, one value for each load or for the path as a whole.
+    increment_errors : dict from str to Array
+        What the increments leave of quantities that are extreme between states, by the states beside them.
     """
 
     setup: Setup
     data: xr.Dataset
     values: dict[str, Array]
+    increment_errors: dict[str, Array] = field(default_factory=dict)
 
     @property
     def points(self) -> int:
@@ -81,7 +84,9 @@ def solve_setup(setup: Setup, names: Sequence[str], coarse: Solution | None = No
     if not is_solved(data.status).any():
         return Solution(setup, data, {name: np.full(1, np.nan) for name in names})
     summary = summarise_paths(combine_runs([(data.drop_vars("seconds"), {"member": 0})]), names).isel(member=0)
-    return Solution(setup, data, {name: np.atleast_1d(summary[name].values.astype(float)) for name in names})
+    values = {name: np.atleast_1d(summary[name].values.astype(float)) for name in names}
+    told = {name: error for name in names if (error := f"{name}_increment_error") in summary}
+    return Solution(setup, data, values, {name: np.atleast_1d(summary[error].values) for name, error in told.items()})
 
 
 def relative_difference(first: Solution, second: Solution, name: str) -> Array:
