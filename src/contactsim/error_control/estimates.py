@@ -1,9 +1,9 @@
 """The error of the finest of some solutions, from what finer and finer grids change.
 
 A change between two runs tells an error of the finer one: errors are taken to fall with a power `ORDER` of the spacing.
-It tells one of all runs that are finer still. Any two runs may agree by chance, so one change tells nothing, and two or
-three are added up. Their sum is multiplied by a factor for how many they are: fewer say less. The factors are those by
-which estimates cover 99 of 100 true errors, one by one, of a wide population of scenes, with a margin
+It tells one of all runs that are finer still. Any two runs may agree by chance, so one change tells nothing; of two or
+three the root of the sum of squares is taken, times a factor for how many they are: fewer say less. The factors are
+those by which estimates cover 99 of 100 true errors, one by one, of a wide population of scenes, with a margin
 (`contactsim.evaluation.calibration`). No other number enters a statement of error.
 """
 
@@ -16,10 +16,10 @@ import numpy as np
 
 from contactsim.grid import Array
 
-ORDER = 1.0
+ORDER = 1.5
 """Power of the spacing with which errors are taken to fall. They fall with 0.5, as pressures at sharp edges, to 2. Those
 of contacts of a few points scatter, and an observed order tells more of their scatter than of them."""
-FACTORS = {2: 2.0, 3: 0.8}
+FACTORS = {2: 5.1, 3: 2.2}
 """Coverage factors of two and of three changes."""
 
 
@@ -42,7 +42,7 @@ def tell_error(values: Sequence[Array], refinements: Sequence[float]) -> Array:
     changes = told_changes(values, refinements)
     if len(changes) not in FACTORS:
         return np.full(np.shape(values[-1]), np.inf)
-    return FACTORS[len(changes)] * np.sum(changes, axis=0)
+    return FACTORS[len(changes)] * np.linalg.norm(changes, axis=0)
 
 
 def told_changes(values: Sequence[Array], refinements: Sequence[float]) -> list[Array]:

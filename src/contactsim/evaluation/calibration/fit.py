@@ -58,7 +58,10 @@ def measure_scene(trial: Trial) -> pd.DataFrame:
         changes = told_changes(*told_values(runs[:count], name))
         told, ends = (
             np.divide(error, sizes, out=np.full(sizes.shape, np.inf), where=sizes > 0)
-            for error in (np.sum(changes, axis=0), np.nan_to_num(run.increment_errors.get(name, np.zeros_like(sizes))))
+            for error in (
+                np.linalg.norm(changes, axis=0),
+                np.nan_to_num(run.increment_errors.get(name, np.zeros_like(sizes))),
+            )
         )
         true = relative_difference(judged.reference, run, name)
         true[true <= ends] = 0.0  # what the increments tell is covered whatever the factors are
