@@ -17,8 +17,8 @@ import numpy as np
 from contactsim.grid import Array
 
 ORDER = 1.5
-"""Power of the spacing with which errors are taken to fall. They fall with 0.5, as pressures at sharp edges, to 2. Those
-of contacts of a few points scatter, and an observed order tells more of their scatter than of them."""
+"""Power of the spacing with which errors are taken to fall. Most fall with 0.8 to 2; those of contacts of a few points
+scatter, and an observed order tells more of their scatter than of them."""
 FACTORS = {2: 5.1, 3: 2.2}
 """Coverage factors of two and of three changes."""
 
