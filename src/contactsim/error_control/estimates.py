@@ -19,7 +19,7 @@ from contactsim.grid import Array
 ORDER = 1.5
 """Power of the spacing with which errors are taken to fall. Most fall with 0.8 to 2; those of contacts of a few points
 scatter, and an observed order tells more of their scatter than of them."""
-FACTORS = {2: 5.1, 3: 2.2}
+FACTORS = {2: 5.0, 3: 2.2}
 """Coverage factors of two and of three changes."""
 
 
