@@ -75,6 +75,16 @@ def test_the_stated_error_covers_the_distance_from_the_exact_contact_of_parallel
     assert covered >= 10
 
 
+def test_no_error_is_below_what_the_increments_leave_beside_an_extreme_though_all_runs_agree():
+    result = solve_with_errors(Setup(SLIDE, RunOptions(512)).with_increment(1.0))
+    (name,), last = result.errors, result.last
+    alike = [replace(run, values=last.values) for run in (*result.before, last)]
+    error = ladder.estimate_error(alike, name)
+    assert error == pytest.approx(last.increment_errors[name] / last.values[name])
+    assert error > 1e-3
+    assert result.errors[name] >= error
+
+
 def test_a_smaller_error_takes_a_finer_grid():
     loose, tight = (solve_to_error(Setup(SCENES["cylinder"]), error) for error in (0.05, 0.002))
     assert tight.last.points > loose.last.points
