@@ -13,6 +13,5 @@ def test_type_checkers_see_each_public_name_in_the_module_that_a_use_imports():
     (block,) = (node for node in tree.body if isinstance(node, ast.If))
     imports = [node for node in block.body if isinstance(node, ast.ImportFrom)]
     seen = {alias.asname: node.module for node in imports for alias in node.names}
-    assert seen == {name: f"contactsim.{module}" for name, module in contactsim.PUBLIC.items()} | dict.fromkeys(
-        contactsim.MODULES, "contactsim"
-    )
+    used = {name: f"contactsim.{module}" for name, module in contactsim.PUBLIC.items()}
+    assert seen == used | dict.fromkeys(contactsim.MODULES, "contactsim")
