@@ -4,7 +4,7 @@ A change between two runs tells an error of the finer one: errors are taken to f
 It tells one of all runs that are finer still. Any two runs may agree by chance, so one change tells nothing; of two or
 three the root of the sum of squares is taken, times a factor for how many they are: fewer say less. The factors are
 those by which estimates cover 99 of 100 true errors, one by one, of a wide population of scenes, with a margin
-(`contactsim.evaluation.calibration`). No other number enters a statement of error.
+(`contactsim.evaluation.calibration`). No other number is fitted.
 """
 
 from __future__ import annotations
