@@ -85,6 +85,14 @@ def test_no_error_is_below_what_the_increments_leave_beside_an_extreme_though_al
     assert result.errors[name] >= error
 
 
+def test_a_number_that_is_infinite_has_no_finite_error():
+    scene = cs.Scene(SOFT, cs.Cylinder(1000.0, 1e4), cs.HardWall(), cs.pressures([0.01, 10.0]))
+    setup = Setup(scene, RunOptions(64, keep=("stiffness",)))
+    data = solve_with_errors(setup, ("contact_stiffness",)).data
+    assert np.isinf(data.contact_stiffness.values[1])  # in full contact
+    assert np.isinf(data.contact_stiffness_estimated_error.values[1])
+
+
 def test_a_smaller_error_takes_a_finer_grid():
     loose, tight = (solve_to_error(Setup(SCENES["cylinder"]), error) for error in (0.05, 0.002))
     assert tight.last.points > loose.last.points

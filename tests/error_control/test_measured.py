@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import contactsim as cs
+from contactsim.error_control import ladder
 from contactsim.error_control.estimates import tell_error
 from contactsim.error_control.forecast import describe_forecasts, forecast_run
 from contactsim.error_control.ladder import solve_to_error, solve_with_errors
 from contactsim.paths.options import Accuracy, RunOptions, Setup
+from contactsim.status import Status
 from contactsim.study.study import Study
 from support.cases import refused
 
@@ -41,6 +45,21 @@ def test_errors_of_a_run_as_it_is_are_those_of_an_accuracy():
     told, asked = cs.simulate(scene, errors=True), cs.simulate(scene, accuracy=0.01)
     assert told[name].values == pytest.approx(asked[name].values, rel=1e-3)
     assert "accuracy" not in told
+
+
+def test_all_points_that_were_not_solved_have_no_finite_error(monkeypatch):
+    solve_setup = ladder.solve_setup
+
+    def fail(setup, *rest):
+        found = solve_setup(setup, *rest)
+        unsolved = found.data.assign(status=found.data.status * 0 + Status.MAX_ITERATIONS.value[0])
+        return replace(found, data=unsolved) if found.points == 130 else found
+
+    monkeypatch.setattr(ladder, "solve_setup", fail)  # 128 of the points can be thinned out
+    result = solve_to_error(Setup(scene_of(heights(130))), 0.9)
+    assert result.last.points == 130
+    assert not result.met
+    assert np.isinf(ladder.largest_error(result.errors))
 
 
 @pytest.mark.parametrize("points", [64, 90])

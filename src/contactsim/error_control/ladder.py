@@ -82,7 +82,8 @@ class Controlled:
         """Dataset of the final run with its quantities, the estimated error of each, and the work done before it."""
         data = self.last.data
         for name, values in self.errors.items():
-            sizes = values * np.abs(self.last.values[name])
+            sizes, known = np.full(values.shape, np.inf), np.isfinite(values)
+            sizes[known] = values[known] * np.abs(self.last.values[name][known])
             if name in data:
                 data = data.assign({f"{name}_estimated_error": ("step", sizes)})
             else:
@@ -177,6 +178,8 @@ def _climb(expected: Setup, quantities: Sequence[str], error: float | None) -> C
     refinements = len(runs) - fewest
     if divisible.size != expected.size:  # errors of the part that can be thinned out stand for those of all points
         runs.append(solve_setup(expected, names))
+        if not runs[-1].solved:
+            errors = {name: np.full(told.shape, np.inf) for name, told in errors.items()}
     dropped = [name for name in FIELDS if kept is None or "fields" not in kept]
     last = replace(runs[-1], data=runs[-1].data.drop_vars(dropped, errors="ignore"))
     return Controlled(last, runs[:-1], errors, error, refinements)
@@ -206,7 +209,7 @@ def estimate_error(runs: Sequence[Solution], name: str) -> Array:
     value, setup = np.abs(runs[-1].values[name]), runs[-1].setup
     error = np.fmax(tell_error(*told_values(runs, name)), runs[-1].increment_errors.get(name, 0.0))
     relative = np.full(value.shape, np.inf)
-    np.divide(error, value, out=relative, where=value > 0)
+    np.divide(error, value, out=relative, where=(value > 0) & np.isfinite(value))
     relative[(error == 0) & np.isfinite(value)] = 0.0
     return np.maximum(relative, TOLERANCE_SHARES[setup.scene.kind] * setup.options.tolerance)
 
