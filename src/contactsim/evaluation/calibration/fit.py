@@ -56,15 +56,10 @@ def measure_scene(trial: Trial) -> pd.DataFrame:
     for count, name in ((count, name) for count in range(2, len(runs) + 1) for name in judged.reference.values):
         run, sizes = runs[count - 1], np.abs(judged.reference.values[name])
         changes = told_changes(*told_values(runs[:count], name))
-        told, ends = (
-            np.divide(error, sizes, out=np.full(sizes.shape, np.inf), where=sizes > 0)
-            for error in (
-                np.linalg.norm(changes, axis=0),
-                np.nan_to_num(run.increment_errors.get(name, np.zeros_like(sizes))),
-            )
-        )
+        told = np.divide(np.linalg.norm(changes, axis=0), sizes, out=np.full(sizes.shape, np.inf), where=sizes > 0)
         true = relative_difference(judged.reference, run, name)
-        true[true <= ends] = 0.0  # what the increments tell is covered whatever the factors are
+        with np.errstate(invalid="ignore"):  # what the increments tell is covered whatever the factors are
+            true[true * sizes <= run.increment_errors.get(name, 0.0)] = 0.0
         counts = (np.maximum(told, true) > FAINT) & (told < LARGE) & np.isfinite(run.values[name])
         rows += [{"changes": len(changes), "ratio": ratio} for ratio in true[counts] / np.maximum(told[counts], LEAST)]
     return pd.DataFrame(rows).assign(scene=f"{trial.kind} {trial.count}", unit=transform_seconds())
