@@ -10,9 +10,10 @@ import xarray as xr
 
 from contactsim.arguments import Modulus, checked
 from contactsim.contact.loading import pressures
+from contactsim.contact.problem_kind import ProblemKind
 from contactsim.contact.scene import Body, Scene
 from contactsim.dataset import describe
-from contactsim.error_control.estimates import tell_error
+from contactsim.error_control.estimates import TOLERANCE_SHARES, tell_error
 from contactsim.error_control.measured import MIN_POINTS, STRIDES
 from contactsim.errors import InputError, Words
 from contactsim.grid import Threads
@@ -139,10 +140,16 @@ def characterise(
     for stride in reversed(STRIDES):
         logger.info("the same with one point in %d", stride)
         runs.insert(0, numbers_of(topography.thinned(stride)))
-    names = [name for name in (*NUMBERS, *OF_HEIGHTS, "nayak_parameter") if name in fine and name not in WITHOUT_ERROR]
-    errors = {
-        name: tell_error([np.atleast_1d(run[name].values) for run in runs], [2.0] * (len(runs) - 1)) for name in names
-    }
+    with_error = [name for name in (*NUMBERS, *OF_HEIGHTS, "nayak_parameter") if name in fine]
+    errors = {}
+    for name in (name for name in with_error if name not in WITHOUT_ERROR):
+        values, least = [run[name] for run in runs], np.zeros(1)
+        if name in NUMBERS:
+            values = [run[name].where(is_solved(run.status), np.inf) for run in runs]
+            least = TOLERANCE_SHARES[ProblemKind.HARD_WALL] * tolerance * np.abs(fine[name].values)
+        if name == "yielding_share":  # a point of the contact more or less
+            least = 1 / (fine.relative_contact_area_subgrid.values * topography.values.size)
+        errors[name] = tell_error([np.atleast_1d(value.values) for value in values], [2.0, 2.0], least)
     shaped = {f"{name}_grid_error": (fine[name].dims, size.reshape(fine[name].shape)) for name, size in errors.items()}
     return describe(fine.assign(shaped))
 

@@ -12,11 +12,12 @@ from numpy.typing import ArrayLike
 from contactsim.arguments import Only, Positive, Values, checked
 from contactsim.contact.loading import LoadPath, load_step
 from contactsim.contact.pose_hard_wall import pose_hard_wall
+from contactsim.contact.problem_kind import ProblemKind
 from contactsim.contact.scene import Body, Scene
 from contactsim.elasticity.base import Elasticity
 from contactsim.elasticity.half_space import FreeHalfSpace, HalfSpace
 from contactsim.elasticity.layer import Layer
-from contactsim.error_control.estimates import tell_error
+from contactsim.error_control.estimates import TOLERANCE_SHARES, tell_error
 from contactsim.error_control.measured import MIN_POINTS, STRIDES
 from contactsim.errors import InputError, is_positive
 from contactsim.grid import Threads
@@ -142,9 +143,15 @@ def press(
     divisible = surface.thinned(1)
     runs = [press_heights(surface.thinned(stride)) for stride in STRIDES]
     runs.append(result if divisible is surface else press_heights(divisible))
-    ratios = [2.0] * (len(runs) - 1)
-    told = {name: tell_error([run.numbers[name] for run in runs], ratios) for name in result.numbers}
-    return replace(result, errors={name: float(error[0]) for name, error in told.items()})
+    told = {}
+    for name, value in result.numbers.items():
+        least = TOLERANCE_SHARES[ProblemKind.HARD_WALL] * tolerance * np.abs(value)
+        if name == "relative_contact_area":  # each edge of a patch lies somewhere between two points
+            edges = [result.contact != np.roll(result.contact, 1, axis) for axis in range(result.contact.ndim)]
+            least = np.fmax(least, 0.5 * np.sum(edges) / result.contact.size)
+        told[name] = float(tell_error([run.numbers[name] for run in runs], [2.0, 2.0], least)[0])
+    del told["mean_pressure" if approach is None else "approach"]  # which is given
+    return replace(result, errors=told)
 
 
 def _read_heights(

@@ -14,6 +14,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from contactsim.contact.problem_kind import ProblemKind
 from contactsim.grid import Array
 
 ORDER = 1.5
@@ -21,9 +22,11 @@ ORDER = 1.5
 scatter, and an observed order tells more of their scatter than of them."""
 FACTORS = {2: 5.0, 3: 2.2}
 """Coverage factors of two and of three changes."""
+TOLERANCE_SHARES = {ProblemKind.HARD_WALL: 0.1, ProblemKind.COHESIVE: 1.0}
+"""Least relative error that is told, over the tolerance: what the solver may leave."""
 
 
-def tell_error(values: Sequence[Array], refinements: Sequence[float]) -> Array:
+def tell_error(values: Sequence[Array], refinements: Sequence[float], least: float | Array = 0.0) -> Array:
     """Return the error of the last of some values of a quantity, in its unit.
 
     Parameters
@@ -33,16 +36,20 @@ def tell_error(values: Sequence[Array], refinements: Sequence[float]) -> Array:
         solved.
     refinements : sequence of float
         How many times finer each run is than the one before it; one fewer.
+    least : float or array, shape (m,)
+        Error that is left even if all runs agree, as by the tolerance or by counting points.
 
     Returns
     -------
     array, shape (m,)
-        Infinite where fewer than three runs, counted from the last, have the quantity and were solved.
+        Infinite where fewer than three runs, counted from the last, have the quantity and were solved; zero where the
+        last three lack it.
     """
-    changes = told_changes(values, refinements)
+    changes, lacks = told_changes(values, refinements), np.isnan(values[-1])
     if len(changes) not in FACTORS:
         return np.full(np.shape(values[-1]), np.inf)
-    return FACTORS[len(changes)] * np.linalg.norm(changes, axis=0)
+    error = np.fmax(FACTORS[len(changes)] * np.linalg.norm(changes, axis=0), least)
+    return np.where(lacks & np.isfinite(error), 0.0, error)
 
 
 def told_changes(values: Sequence[Array], refinements: Sequence[float]) -> list[Array]:

@@ -17,7 +17,7 @@ import xarray as xr
 
 from contactsim import dataset
 from contactsim.contact.problem_kind import ProblemKind
-from contactsim.error_control.estimates import ORDER, tell_error
+from contactsim.error_control.estimates import ORDER, TOLERANCE_SHARES, tell_error
 from contactsim.error_control.measured import is_measured, thin_out
 from contactsim.error_control.options import (
     MIN_RATIO,
@@ -25,6 +25,7 @@ from contactsim.error_control.options import (
     check_quantities,
     choose_options,
     coarser_setups,
+    known_quantities,
     refine,
     shows_jumps,
 )
@@ -36,8 +37,6 @@ from contactsim.paths.options import Setup
 
 logger = logging.getLogger(__name__)
 
-TOLERANCE_SHARES = {ProblemKind.HARD_WALL: 0.1, ProblemKind.COHESIVE: 1.0}
-"""Least relative error that is told, over the tolerance: what the solver may leave."""
 SAFETY = 0.8
 """Part of the error that a further grid is chosen for."""
 MAX_RUNS, MAX_WORK = 8, 1e11
@@ -59,7 +58,7 @@ class Controlled:
     before : list of Solution
         What was solved before it, in that order.
     errors : dict from str to Array
-        Estimated relative error by quantity, of each load or of the path.
+        Estimated relative error by quantity, of each load or of the path; zero of one that the path lacks.
     wanted : float, optional
         The relative error that was asked for.
     refinements : int
@@ -74,8 +73,9 @@ class Controlled:
 
     @property
     def met(self) -> bool:
-        """True where every estimate is within the wanted error."""
-        return self.wanted is None or bool(all((values <= self.wanted).all() for values in self.errors.values()))
+        """True where every estimate is within the wanted error, of at least one quantity that there is."""
+        shown = any(np.isfinite(self.last.values[name]).any() for name in self.errors)
+        return self.wanted is None or (shown and largest_error(self.errors) <= self.wanted)
 
     @property
     def data(self) -> xr.Dataset:
@@ -83,7 +83,7 @@ class Controlled:
         data = self.last.data
         for name, values in self.errors.items():
             sizes, known = np.full(values.shape, np.inf), np.isfinite(values)
-            sizes[known] = values[known] * np.abs(self.last.values[name][known])
+            sizes[known] = values[known] * self.last.scale(name)[known]
             if name in data:
                 data = data.assign({f"{name}_estimated_error": ("step", sizes)})
             else:
@@ -154,6 +154,7 @@ def solve_with_errors(setup: Setup, quantities: Sequence[str] = ()) -> Controlle
 def _climb(expected: Setup, quantities: Sequence[str], error: float | None) -> Controlled:
     """Solve coarser setups, the expected one and finer ones, until the error is small enough; without one, three."""
     names, runs = check_quantities(expected, quantities), list[Solution]()
+    known = known_quantities(expected)
     kept = expected.options.keep
     if expected.scene.kind is ProblemKind.COHESIVE and expected.scene.path.increment is None:
         logger.warning("a path without an increment has its %d states alone", len(expected.scene.path.steps))
@@ -167,21 +168,23 @@ def _climb(expected: Setup, quantities: Sequence[str], error: float | None) -> C
             if kept is not None:
                 fields = ["fields"] * (setup.size * len(setup.scene.path.steps) <= MAX_FIELDS)
                 setup = setup.with_options(keep=tuple(dict.fromkeys((*kept, *fields))))
-            runs.append(solve_setup(setup, names, runs[-1] if runs else None))
+            runs.append(solve_setup(setup, known, runs[-1] if runs else None))
             runs[:-1] = [replace(run, data=run.data.drop_vars(FIELDS, errors="ignore")) for run in runs[:-1]]
-        present = keep_present(runs[-2], runs[-1], names, quantities)
-        errors = {name: estimate_error(runs, name) for name in present}
+        errors = {name: estimate_error(runs, name) for name in names}
         worst = largest_error(errors)
         logger.info("on %d points: an error of %.2g", runs[-1].points, worst)
         is_last = worst <= wanted or len(runs) >= MAX_RUNS or not (runs[-1].solved or runs[-2].solved)
         waiting = [] if is_last else _finer_setups(runs[-1], worst / wanted)
     refinements = len(runs) - fewest
     if divisible.size != expected.size:  # errors of the part that can be thinned out stand for those of all points
-        runs.append(solve_setup(expected, names))
+        runs.append(solve_setup(expected, known))
         if not runs[-1].solved:
             errors = {name: np.full(told.shape, np.inf) for name, told in errors.items()}
     dropped = [name for name in FIELDS if kept is None or "fields" not in kept]
     last = replace(runs[-1], data=runs[-1].data.drop_vars(dropped, errors="ignore"))
+    lacking = [name for name in names if np.isnan(last.values[name]).all()]
+    if lacking:
+        logger.warning("the path shows no %s, so there is no error of it", ", no ".join(lacking))
     return Controlled(last, runs[:-1], errors, error, refinements)
 
 
@@ -205,34 +208,25 @@ def _finer_setups(run: Solution, excess: float) -> list[Setup]:
 
 
 def estimate_error(runs: Sequence[Solution], name: str) -> Array:
-    """Return the relative error of a quantity of the last of some runs, each finer than the one before."""
-    value, setup = np.abs(runs[-1].values[name]), runs[-1].setup
-    error = np.fmax(tell_error(*told_values(runs, name)), runs[-1].increment_errors.get(name, 0.0))
-    relative = np.full(value.shape, np.inf)
-    np.divide(error, value, out=relative, where=(value > 0) & np.isfinite(value))
-    relative[(error == 0) & np.isfinite(value)] = 0.0
-    return np.maximum(relative, TOLERANCE_SHARES[setup.scene.kind] * setup.options.tolerance)
+    """Return the relative error of a quantity of the last of some runs, each finer than the one before.
+
+    A quantity that the last three lack has none, where their increments are short enough to show jumps.
+    """
+    last, setup = runs[-1], runs[-1].setup
+    scale = last.scale(name)
+    tolerance = TOLERANCE_SHARES[setup.scene.kind] * setup.options.tolerance
+    least = np.fmax(tolerance * scale, last.increment_errors.get(name, 0.0))
+    error = tell_error(*told_values(runs, name), least)
+    relative = np.full(scale.shape, np.inf)
+    np.divide(error, scale, out=relative, where=(scale > 0) & np.isfinite(scale))
+    relative[(error == 0) & ~np.isinf(scale)] = 0.0
+    return np.where(np.isnan(scale) & (not shows_jumps(setup)), np.inf, relative)
 
 
 def told_values(runs: Sequence[Solution], name: str) -> tuple[list[Array], list[float]]:
     """Return a quantity of some runs, infinite where one was not solved, and how many times finer each is."""
     values = [run.values[name] if run.solved else np.full_like(run.values[name], np.inf) for run in runs]
     return values, [fine.points / coarse.points for coarse, fine in itertools.pairwise(runs)]
-
-
-def keep_present(coarse: Solution, fine: Solution, names: Sequence[str], asked: Sequence[str]) -> tuple[str, ...]:
-    """Return the quantities that a scene has; InputError where one that was asked for is missing, or all.
-
-    Where a run was not solved, or increments are too long to show jumps, nobody knows, and all count.
-    """
-    if not (coarse.solved and fine.solved and shows_jumps(fine.setup)):
-        return tuple(names)
-    present = tuple(name for name in names if np.isfinite([coarse.values[name], fine.values[name]]).any())
-    missing = [name for name in (asked or names if not present else asked) if name not in present]
-    if missing:
-        allowed = "a quantity that this path has: it does not come so far, or does not turn back"
-        raise InputError("quantities", missing[0], allowed)
-    return present
 
 
 def largest_error(errors: dict[str, Array]) -> float:

@@ -37,17 +37,10 @@ MAX_INCREMENT, MIN_STEPS = 2.8, 4
 """Longest increment, in the same range, and fewest steps, of the coarsest run."""
 JUMP_INCREMENT = 0.5
 """Longest increment, in the same range, in which a jump is told from a smooth motion."""
-LOAD_QUANTITIES = (
-    "relative_contact_area_subgrid",
-    "relative_contact_area",
-    "relative_contact_area_corrected",
-    "approach",
-    "mean_gap",
-    "max_pressure",
-    "rms_gradient_contact_subgrid",
-)
-"""Numbers of a load at a hard wall whose error is told."""
-KEPT_QUANTITIES = {"contact_stiffness": "stiffness", "patches": "patches", "largest_patch_share": "patches"}
+LENGTHS = ("approach", "mean_gap")
+LOAD_QUANTITIES = ("relative_contact_area_subgrid", *LENGTHS, "max_pressure", "rms_gradient_contact_subgrid")
+"""Numbers of a load at a hard wall whose error is told. Whole numbers, as of points or slips, agree by chance: none."""
+KEPT_QUANTITIES = {"contact_stiffness": "stiffness"}
 """The same of those that a run has to keep: under which name it does."""
 USUAL_QUANTITIES = {
     (ProblemKind.HARD_WALL, 1): LOAD_QUANTITIES[:1],
@@ -63,6 +56,18 @@ def usual_quantities(scene: Scene) -> tuple[str, ...]:
     return ("static_friction",) if scene.sliding else USUAL_QUANTITIES[scene.kind, len(scene.lengths)]
 
 
+def known_quantities(setup: Setup) -> tuple[str, ...]:
+    """Return all quantities whose error can be told: what unloading shows only of a path that turns back."""
+    scene, dimensions = setup.scene, len(setup.scene.lengths)
+    if scene.kind is ProblemKind.HARD_WALL:
+        keep = setup.options.keep or ()
+        return (*LOAD_QUANTITIES, *(name for name, part in KEPT_QUANTITIES.items() if part in keep))
+    onset = [name for name in ONSET if scene.sliding and not name.endswith("_count")]
+    if any(after < before for before, after in itertools.pairwise(scene.path.turning_points)):
+        return (*SUMMARIES[dimensions], *CYCLES[dimensions], *onset)
+    return (*(name for name in SUMMARIES[dimensions] if not name.endswith("_unloading")), *onset)
+
+
 def check_quantities(setup: Setup, quantities: Sequence[str]) -> tuple[str, ...]:
     """Return the quantities whose errors are told: those named, or those usual for the scene.
 
@@ -76,11 +81,7 @@ def check_quantities(setup: Setup, quantities: Sequence[str]) -> tuple[str, ...]
         raise InputError("path", "approach", "mean pressures: with a hard wall an accuracy needs loads above zero")
     if {Trait.APPROACH, Trait.MEAN_PRESSURE} <= scene.traits and not scene.sliding:
         raise InputError("path", Words("approaches and mean pressures"), "one of them, with an accuracy")
-    dimensions, keep = len(scene.lengths), setup.options.keep or ()
-    if scene.kind is ProblemKind.HARD_WALL:
-        known = (*LOAD_QUANTITIES, *(name for name, part in KEPT_QUANTITIES.items() if part in keep))
-    else:
-        known = (*SUMMARIES[dimensions], *CYCLES[dimensions], *(ONSET if scene.sliding else ()))
+    known = known_quantities(setup)
     for name in quantities:
         if name not in known:
             missing = f", or one of {', '.join(KEPT_QUANTITIES)} where `keep` has it" if name in KEPT_NUMBERS else ""

@@ -118,7 +118,9 @@ def features(setup: Setup) -> list[dict[str, float]]:
             raise InputError("path", "approach", "loads: the costs of walls at given approaches were not measured")
         enough = setup.points if is_measured(scene) else round_grid(expected_points(scene, TYPICAL_ERROR))
         gradient = _rms_gradient(scene, min(setup.points, enough))
-        return [numbers | {"area": _expected_area(scene, step.value, gradient)} for step in scene.path.steps]
+        unit = max(scene.contact_modulus * gradient, 1e-300)  # GPa, of reduced pressures
+        areas = [np.clip(TYPICAL_KAPPA * abs(step.value) / unit, LEAST, 1.0) for step in scene.path.steps]
+        return [numbers | {"area": math.log(area)} for area in areas]
     if math.isfinite(scene.pairing.lattice_constant):
         raise InputError("pairing", "lattice", "facing points: the costs of lattices were not measured")
     zone = process_zone(scene.contact_modulus, total_strength(scene), shortest_range(scene))
@@ -137,9 +139,3 @@ def features(setup: Setup) -> list[dict[str, float]]:
         "every": float(isinstance(setup.options.increments, Requested | None)),
     }
     return [numbers]
-
-
-def _expected_area(scene: Scene, pressure: float, gradient: float) -> float:
-    """Return the logarithm of the relative contact area that is expected at a mean pressure (GPa)."""
-    reduced = abs(pressure) / max(scene.contact_modulus * gradient, 1e-300)
-    return float(np.log(np.clip(TYPICAL_KAPPA * reduced, LEAST, 1.0)))

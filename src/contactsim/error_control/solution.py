@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from contactsim.contact.problem_kind import ProblemKind
+from contactsim.error_control.options import LENGTHS
 from contactsim.grid import Array
 from contactsim.observables.derived import combine_runs, summarise_paths
 from contactsim.paths.driver import follow_path
@@ -58,6 +59,17 @@ class Solution:
         """CPU seconds of all steps."""
         return float(self.data.seconds.sum())
 
+    def scale(self, name: str) -> Array:
+        """Return the size of a quantity, to which its relative error refers.
+
+        A length at a hard wall has at least that of the tolerance, as the gap in full contact, which is rounding.
+        """
+        sizes = np.abs(self.values[name])
+        if name in LENGTHS:
+            slope, spacing = self.data.rms_gradient.values, self.data.length.item() / self.points
+            sizes = np.maximum(sizes, self.setup.options.tolerance * slope * spacing)
+        return sizes
+
     @property
     def size(self) -> int:
         """All points of the grid."""
@@ -84,7 +96,8 @@ def solve_setup(setup: Setup, names: Sequence[str], coarse: Solution | None = No
     if not is_solved(data.status).any():
         return Solution(setup, data, {name: np.full(1, np.nan) for name in names})
     summary = summarise_paths(combine_runs([(data.drop_vars("seconds"), {"member": 0})]), names).isel(member=0)
-    values = {name: np.atleast_1d(summary[name].values.astype(float)) for name in names}
+    lacking = xr.DataArray(np.nan)  # such as a slip without a tangential law
+    values = {name: np.atleast_1d(summary.get(name, lacking).values.astype(float)) for name in names}
     told = {name: error for name in names if (error := f"{name}_increment_error") in summary}
     return Solution(setup, data, values, {name: np.atleast_1d(summary[error].values) for name, error in told.items()})
 

@@ -38,6 +38,8 @@ LEAST = 1e-5
 """Least estimate, in place of none where runs agree."""
 RIDGE_WEIGHT = 1e-2
 """Weight that keeps coefficients small where features are alike."""
+UNITS = ("step", "transform", "point")
+"""Work that takes time: of a load or step, of a transform, and of its points times their binary logarithm."""
 NOT_RANGED = ("one", "tolerance", "every", "steps")
 """Features of a user's options: they do not put a scene outside the measured ranges."""
 
@@ -107,22 +109,17 @@ def fit_family(works: pd.DataFrame, family: str) -> dict[str, Any]:
     penalty = np.sqrt(RIDGE_WEIGHT * len(rows)) * np.diag([float(name != "one") for name in names])
     padded = np.vstack([matrix, penalty]), np.concatenate([logs, np.zeros(len(names))])
     solution = np.linalg.lstsq(*padded, rcond=None)[0]
-    return {
-        "transforms": {name: _round(value) for name, value in zip(names, solution, strict=True)},
-        "units": {name: _round(value / unit) for name, value in _fit_seconds(rows).items()},
-        "ranges": {
-            name: [_round(rows[name].min()), _round(rows[name].max())] for name in names if name not in NOT_RANGED
-        },
-    }
-
-
-def _fit_seconds(rows: pd.DataFrame) -> dict[str, float]:
-    """Fit the seconds of a load or step, of a transform, and of points times their log2 to logarithms."""
     size, seconds = rows.total.to_numpy(float), rows.seconds.to_numpy(float)
     parts = np.stack([rows["count"], rows.transforms, rows.transforms * size * np.log2(size)], axis=1).astype(float)
     begin = np.log(np.median(seconds[:, None] / parts, axis=0) / len(parts.T))
     times = np.exp(least_squares(lambda logs: np.log(parts @ np.exp(logs) / seconds), begin, loss="soft_l1").x)
-    return dict(zip(("step", "transform", "point"), times, strict=True))
+    return {
+        "transforms": {name: _round(value) for name, value in zip(names, solution, strict=True)},
+        "units": {name: _round(value / unit) for name, value in zip(UNITS, times, strict=True)},
+        "ranges": {
+            name: [_round(rows[name].min()), _round(rows[name].max())] for name in names if name not in NOT_RANGED
+        },
+    }
 
 
 def _round(value: float) -> float:
