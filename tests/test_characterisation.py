@@ -14,7 +14,7 @@ from contactsim.cli import main
 from contactsim.error_control.estimates import tell_error
 from contactsim.figures.characterisation import plot_characterisation
 from contactsim.observables.contact import relative_contact_area_subgrid
-from contactsim.status import FLAGS
+from contactsim.status import FLAGS, Status
 from support.cases import refused, rough
 
 LOADS = [0.01, 0.1, 0.3]
@@ -73,6 +73,25 @@ def test_its_errors_hold_on_finer_grids():
     )
     for name in ("relative_contact_area_subgrid", "contact_stiffness", "mean_gap", "max_pressure"):
         assert abs(one[name] - two[name]) <= one[f"{name}_grid_error"], name
+
+
+def test_no_error_is_told_by_a_part_of_the_points_that_was_not_solved(monkeypatch):
+    def fail(scene, **options):
+        data = cs.simulate(scene, **options)
+        if data.points.item() == 64:
+            data = data.assign(status=data.status * 0 + Status.MAX_ITERATIONS.value[0])
+        return data
+
+    monkeypatch.setattr("contactsim.characterisation.simulate", fail)
+    data = cs.characterise(surface(), contact_modulus=1.0, mean_pressures=LOADS, periodic=True)
+    assert np.isinf(data.approach_grid_error).all()
+    assert np.isfinite(data.rms_height_grid_error)
+
+
+def test_a_share_of_the_contact_has_an_error_of_a_point_though_all_grids_agree():
+    data = cs.characterise(surface(), contact_modulus=1.0, mean_pressures=[0.1], hardness=50.0, periodic=True)
+    assert data.yielding_share == 0
+    assert data.yielding_share_grid_error >= 1 / (data.relative_contact_area_subgrid * 128**2)
 
 
 def test_what_would_yield_and_slopes_that_are_too_large_are_told():

@@ -140,12 +140,13 @@ def characterise(
     for stride in reversed(STRIDES):
         logger.info("the same with one point in %d", stride)
         runs.insert(0, numbers_of(topography.thinned(stride)))
-    with_error = [name for name in (*NUMBERS, *OF_HEIGHTS, "nayak_parameter") if name in fine]
-    errors = {}
-    for name in (name for name in with_error if name not in WITHOUT_ERROR):
+    errors, solved = {}, is_solved(fine.status)
+    for name in (*NUMBERS, *OF_HEIGHTS, "nayak_parameter"):
+        if name not in fine or name in WITHOUT_ERROR:
+            continue
         values, least = [run[name] for run in runs], np.zeros(1)
         if name in NUMBERS:
-            values = [run[name].where(is_solved(run.status), np.inf) for run in runs]
+            values = [run[name].where(is_solved(run.status) & solved, np.inf) for run in runs]
             least = TOLERANCE_SHARES[ProblemKind.HARD_WALL] * tolerance * np.abs(fine[name].values)
         if name == "yielding_share":  # a point of the contact more or less
             least = 1 / (fine.relative_contact_area_subgrid.values * topography.values.size)

@@ -115,9 +115,10 @@ def _describe_accuracy(data: xr.Dataset) -> str:
     """Return the estimated relative errors of a run to an accuracy, in words."""
     ending = "_estimated_error"
     names = [str(name).removesuffix(ending) for name in data if str(name).endswith(ending)]
-    errors = {name: np.max(data[name + ending].values / np.abs(data[name].values)) for name in names}
+    errors = {name: float((data[name + ending] / np.abs(data[name])).max()) for name in names}
     reached = "reached" if data.accuracy_reached else "not reached"
-    estimates = ", ".join(f"{name} to {error:.2g}" for name, error in errors.items())
+    told = [f"no {name}" if np.isnan(error) else f"{name} to {error:.2g}" for name, error in errors.items()]
+    estimates = ", ".join(told)
     return f"relative error {float(data.accuracy):g} {reached} on {int(data.points)} points: {estimates}, as estimated"
 
 

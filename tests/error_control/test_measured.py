@@ -76,6 +76,18 @@ def test_pressed_heights_tell_errors_that_cover_finer_points(points):
         cs.press(np.arange(6.0), contact_modulus=1.0, mean_pressure=0.05, spacing=1.0, errors=True)
 
 
+def test_what_is_given_has_no_error_and_an_area_in_points_has_that_of_its_edges():
+    """A flat punch: all grids have the same contact, which may end anywhere between two points."""
+    punch = np.where(np.abs(np.arange(64) - 32) < 16, 0.0, -10.0)
+    options = {"contact_modulus": 1.0, "spacing": 1.0, "errors": True}
+    pushed = cs.press(punch, mean_pressure=0.01, **options)
+    assert pushed.errors["relative_contact_area"] >= 0.5 * 2 / 64
+    assert "mean_pressure" not in pushed.errors
+    sunk = cs.press(heights(128), approach=-0.5, **options)
+    assert sunk.errors["mean_pressure"] > 0
+    assert "approach" not in sunk.errors
+
+
 def test_a_path_over_measured_heights_has_no_finer_grid():
     law = cs.NormalCohesiveZone(work_of_separation=0.05, normal_length=1.0)
     topography = cs.Topography(heights(128, 64.0) / 5, 4.0, periodic=True)

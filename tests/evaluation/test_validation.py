@@ -10,6 +10,7 @@ import pytest
 
 from contactsim import dataset
 from contactsim.error_control.scaling import FAMILIES, Family, features
+from contactsim.error_control.solution import relative_difference
 from contactsim.errors import InputError
 from contactsim.evaluation.calibration import fit
 from contactsim.evaluation.calibration.population import KIND_NAMES, draw_scene
@@ -70,6 +71,17 @@ def test_the_cheapest_setting_is_within_the_error_and_no_cheaper_one_is():
     assert all(judged.true_error(run) > 0.05 for run in judged.settings if run.seconds < least.seconds)
     assert judged.cheapest(0.0) is None
     assert judged.reference.points > judged.result.last.points
+
+
+def test_a_true_error_holds_what_a_finer_run_leaves_and_other_numbers_are_judged_too(tried):
+    judged = judge(trial("rough_line", 0))
+    run, reference = judged.result.last, judged.reference
+    change = relative_difference(reference, run, "approach").max()
+    assert judged.true_error(run, "approach") == pytest.approx(change / (1 - (run.points / reference.points) ** 1.5))
+    data = tried["rough_line_0"][0]
+    assert data.others.item() >= 3
+    assert 0 <= data.covered_others.item() <= data.others.item()
+    assert len(judged.covered(*reference.values)) == data.others.item() + 1
 
 
 def test_a_trial_whose_cost_cannot_be_forecast_is_judged(tried, monkeypatch):

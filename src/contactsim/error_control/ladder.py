@@ -73,9 +73,8 @@ class Controlled:
 
     @property
     def met(self) -> bool:
-        """True where every estimate is within the wanted error, of at least one quantity that there is."""
-        shown = any(np.isfinite(self.last.values[name]).any() for name in self.errors)
-        return self.wanted is None or (shown and largest_error(self.errors) <= self.wanted)
+        """True where every estimate is within the wanted error."""
+        return self.wanted is None or bool(all((values <= self.wanted).all() for values in self.errors.values()))
 
     @property
     def data(self) -> xr.Dataset:
@@ -176,15 +175,16 @@ def _climb(expected: Setup, quantities: Sequence[str], error: float | None) -> C
         is_last = worst <= wanted or len(runs) >= MAX_RUNS or not (runs[-1].solved or runs[-2].solved)
         waiting = [] if is_last else _finer_setups(runs[-1], worst / wanted)
     refinements = len(runs) - fewest
-    if divisible.size != expected.size:  # errors of the part that can be thinned out stand for those of all points
+    is_whole = divisible.size == expected.size
+    if not is_whole:  # errors of the part that can be thinned out stand for those of all points
         runs.append(solve_setup(expected, known))
-        if not runs[-1].solved:
-            errors = {name: np.full(told.shape, np.inf) for name, told in errors.items()}
     dropped = [name for name in FIELDS if kept is None or "fields" not in kept]
     last = replace(runs[-1], data=runs[-1].data.drop_vars(dropped, errors="ignore"))
-    lacking = [name for name in names if np.isnan(last.values[name]).all()]
+    lacking = [name for name in names if last.solved and np.isnan(last.values[name]).all()]
     if lacking:
         logger.warning("the path shows no %s, so there is no error of it", ", no ".join(lacking))
+    if not (is_whole or last.solved) or len(lacking) == len(names):
+        errors = {name: np.full(told.shape, np.inf) for name, told in errors.items()}
     return Controlled(last, runs[:-1], errors, error, refinements)
 
 
